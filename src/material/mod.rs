@@ -1,0 +1,66 @@
+//! What a surface looks like: plain sections with public fields. MToon 1.0 maps onto it without loss.
+
+mod alpha;
+mod base;
+mod matcap;
+mod outline;
+mod rim;
+mod toon;
+mod uv_animation;
+
+pub use alpha::{Alpha, AlphaMode};
+pub use base::{Base, Emission, NormalMap, TextureRef, UvTransform};
+pub use matcap::Matcap;
+pub use outline::{Outline, OutlineWidth};
+pub use rim::Rim;
+pub use toon::{Shading, Toon};
+pub use uv_animation::UvAnimation;
+
+use serde::{Deserialize, Serialize};
+
+/// A material.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Material {
+    /// Name in the file; may be empty.
+    pub name: String,
+    /// Which description in the file it was made from.
+    pub origin: Origin,
+    /// Lit colour.
+    pub base: Base,
+    /// Opacity and draw order.
+    pub alpha: Alpha,
+    /// Draws back faces too, with their normals turned. Default: false.
+    pub double_sided: bool,
+    /// Tangent-space normal map. Default: none.
+    pub normal_map: Option<NormalMap>,
+    /// Light of its own.
+    pub emission: Emission,
+    /// Moves UVs over time.
+    pub uv_animation: UvAnimation,
+    /// How light becomes colour.
+    pub shading: Shading,
+    /// A picture of light looked up by the view-space normal. Default: none.
+    pub matcap: Option<Matcap>,
+    /// Light along the contour.
+    pub rim: Rim,
+    /// Line around the shape. Default: none.
+    pub outline: Option<Outline>,
+}
+
+/// The description that a [`Material`] was made from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Origin {
+    /// Made in code.
+    #[default]
+    Code,
+    /// `VRMC_materials_mtoon` (VRM 1.0).
+    Mtoon1,
+    /// `materialProperties` with an MToon shader (VRM 0.x).
+    Mtoon0,
+    /// `KHR_materials_unlit`, or an unlit shader of VRM 0.x.
+    Unlit,
+    /// glTF metallic-roughness, turned into a toon material.
+    Pbr,
+}

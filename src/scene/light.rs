@@ -1,0 +1,87 @@
+//! Lights of a view: one directional key light, ambient light, a few punctual lights.
+
+use glam::Vec3;
+
+use crate::color::LinearRgb;
+
+/// How many punctual lights a view may have.
+pub const MAX_PUNCTUAL_LIGHTS: usize = 4;
+
+/// All lights of a view.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Lights {
+    /// The key light.
+    pub directional: DirectionalLight,
+    /// Light from everywhere.
+    pub ambient: Ambient,
+    /// Point and spot lights; at most [`MAX_PUNCTUAL_LIGHTS`] are used.
+    ///
+    /// All lights are accumulated before the toon band is cut, so that many lights still give one clean edge.
+    pub punctual: Vec<PunctualLight>,
+}
+
+/// Light from far away.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DirectionalLight {
+    /// Unit direction from the surface to the light, world space. Default: from the front, upper left of the picture.
+    pub to_light: Vec3,
+    /// Colour, linear. Default: white.
+    pub color: LinearRgb,
+    /// Strength; 1 shows a material's lit colour exactly. Range 0... Default: 1.
+    pub intensity: f32,
+}
+
+impl Default for DirectionalLight {
+    fn default() -> Self {
+        Self { to_light: Vec3::new(-0.35, 0.55, 0.76).normalize(), color: LinearRgb::WHITE, intensity: 1.0 }
+    }
+}
+
+/// Light from everywhere, as a hemisphere: `sky` on surfaces that face up, `ground` on those that face down.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ambient {
+    /// Radiance from above, linear. Default: 0.1 grey.
+    pub sky: LinearRgb,
+    /// Radiance from below, linear. Default: 0.1 grey.
+    pub ground: LinearRgb,
+}
+
+impl Default for Ambient {
+    fn default() -> Self {
+        Self::uniform(LinearRgb::splat(0.1))
+    }
+}
+
+impl Ambient {
+    /// The same light from every direction.
+    #[must_use]
+    pub const fn uniform(color: LinearRgb) -> Self {
+        Self { sky: color, ground: color }
+    }
+}
+
+/// A point or spot light (`KHR_lights_punctual` attenuation).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PunctualLight {
+    /// Position, metres, world space.
+    pub position: Vec3,
+    /// Colour, linear.
+    pub color: LinearRgb,
+    /// Strength at one metre; 1 shows a material's lit colour there. Range 0...
+    pub intensity: f32,
+    /// Distance at which it ends, metres; 0 for none.
+    pub range: f32,
+    /// Cone of a spot light; `None` shines in all directions.
+    pub spot: Option<SpotCone>,
+}
+
+/// Cone of a spot light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpotCone {
+    /// Unit direction in which it shines, world space.
+    pub direction: Vec3,
+    /// Half-angle of full strength, radians. Range 0..`outer_rad`.
+    pub inner_rad: f32,
+    /// Half-angle at which it ends, radians. Range `inner_rad`..π/2.
+    pub outer_rad: f32,
+}
