@@ -1,9 +1,14 @@
 //! Stylized (NPR) shading of anime characters on wgpu.
 pub mod color;
 mod error;
+pub mod gpu;
 pub mod material;
+pub mod motion;
+pub mod render;
 pub mod scene;
 pub mod import {
     //! stub
 }
 pub use error::{Error, Result};
+pub use gpu::{AdapterInfo, Gpu};
+pub use render::{Background, Channel, GpuMemory, GpuScene, Output, Renderer, View, shaders};

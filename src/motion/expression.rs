@@ -1,0 +1,157 @@
+//! Facial expressions of VRM 1.0 (`VRMC_vrm.expressions`): weights to morphs and material changes.
+
+use super::Pose;
+use crate::{
+    Error, Result,
+    material::{Material, Shading, TextureRef},
+    scene::{ColorTarget, Expression, ExpressionOverride, Scene},
+};
+
+const BLINK: &[&str] = &["blink", "blinkLeft", "blinkRight"];
+const LOOK_AT: &[&str] = &["lookUp", "lookDown", "lookLeft", "lookRight"];
+const MOUTH: &[&str] = &["aa", "ih", "ou", "ee", "oh"];
+
+impl Pose {
+    /// Sets facial expressions; those not named are off. Weights are clamped to 0..1.
+    ///
+    /// Binary expressions round at 0.5, and expressions that block or blend blinking, gaze or the mouth do so, as VRM
+    /// 1.0 rules.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for a name that the character lacks; the message lists the known names.
+    pub fn set_expressions(&mut self, scene: &Scene, weights: &[(String, f32)]) -> Result<()> {
+        let expressions = scene.character.as_ref().map_or(&[] as &[Expression], |c| &c.expressions);
+        let mut input = vec![0f32; expressions.len()];
+        for (name, weight) in weights {
+            let Some(index) = expressions.iter().position(|e| e.name == *name) else {
+                let known: Vec<_> = expressions.iter().map(|e| e.name.as_str()).collect();
+                let known = if known.is_empty() { "none".to_owned() } else { known.join(", ") };
+                return Err(Error::Argument {
+                    what: format!("expression {name:?}"),
+                    message: format!("the model has no such expression; it has: {known}"),
+                });
+            };
+            input[index] = if weight.is_finite() { weight.clamp(0.0, 1.0) } else { 0.0 };
+        }
+        for (weight, expression) in input.iter_mut().zip(expressions) {
+            if expression.is_binary {
+                *weight = if *weight > 0.5 { 1.0 } else { 0.0 };
+            }
+        }
+
+        let keep = |of: fn(&Expression) -> ExpressionOverride| {
+            let suppressed: f32 = expressions
+                .iter()
+                .zip(&input)
+                .map(|(e, &w)| match of(e) {
+                    ExpressionOverride::None => 0.0,
+                    ExpressionOverride::Block => f32::from(u8::from(w > 0.0)),
+                    ExpressionOverride::Blend => w,
+                })
+                .sum();
+            1.0 - suppressed.min(1.0)
+        };
+        let (blink, look_at, mouth) = (keep(|e| e.override_blink), keep(|e| e.override_look_at), keep(|e| e.override_mouth));
+        self.morph_weights = scene.nodes.iter().map(|n| n.morph_weights.clone()).collect();
+        self.materials.clear();
+        for (expression, &weight) in expressions.iter().zip(&input) {
+            let name = expression.name.as_str();
+            let mut factor = 1.0;
+            for (group, kept) in [(BLINK, blink), (LOOK_AT, look_at), (MOUTH, mouth)] {
+                if group.contains(&name) {
+                    factor *= kept;
+                }
+            }
+            // A binary expression is whole or off, even where another one fades it.
+            let weight = if expression.is_binary && factor < 1.0 { 0.0 } else { weight * factor };
+            if weight > 0.0 {
+                self.add_expression(scene, expression, weight);
+            }
+        }
+        Ok(())
+    }
+
+    fn add_expression(&mut self, scene: &Scene, expression: &Expression, weight: f32) {
+        for bind in &expression.morphs {
+            if let Some(w) = self.morph_weights.get_mut(bind.node).and_then(|n| n.get_mut(bind.target)) {
+                *w += bind.weight * weight;
+            }
+        }
+        for bind in &expression.colors {
+            let Some(rest) = scene.materials.get(bind.material) else { continue };
+            let posed = self.materials.entry(bind.material).or_insert_with(|| rest.clone());
+            let (from, to) = (color_of(rest, bind.target), bind.value);
+            let shift: [f32; 4] = std::array::from_fn(|i| (to[i] - from[i]) * weight);
+            add_color(posed, bind.target, shift);
+        }
+        for bind in &expression.uv_transforms {
+            let Some(rest) = scene.materials.get(bind.material) else { continue };
+            let posed = self.materials.entry(bind.material).or_insert_with(|| rest.clone());
+            for texture in textures_mut(posed) {
+                for axis in 0..2 {
+                    texture.transform.scale[axis] += (bind.scale[axis] - 1.0) * weight;
+                    texture.transform.offset[axis] += bind.offset[axis] * weight;
+                }
+            }
+        }
+    }
+}
+
+fn color_of(material: &Material, target: ColorTarget) -> [f32; 4] {
+    let opaque = |[r, g, b]: [f32; 3]| [r, g, b, 1.0];
+    match target {
+        ColorTarget::Color => material.base.color,
+        ColorTarget::EmissionColor => opaque(material.emission.color),
+        ColorTarget::ShadeColor => match &material.shading {
+            Shading::Toon(toon) => opaque(toon.shade_color),
+            Shading::Unlit => [0.0; 4],
+        },
+        ColorTarget::MatcapColor => opaque(material.matcap.map_or([0.0; 3], |m| m.color)),
+        ColorTarget::RimColor => opaque(material.rim.color),
+        ColorTarget::OutlineColor => opaque(material.outline.map_or([0.0; 3], |o| o.color)),
+    }
+}
+
+fn add_color(material: &mut Material, target: ColorTarget, shift: [f32; 4]) {
+    let color: &mut [f32] = match target {
+        ColorTarget::Color => &mut material.base.color,
+        ColorTarget::EmissionColor => &mut material.emission.color,
+        ColorTarget::ShadeColor => match &mut material.shading {
+            Shading::Toon(toon) => &mut toon.shade_color,
+            Shading::Unlit => return,
+        },
+        ColorTarget::MatcapColor => match &mut material.matcap {
+            Some(matcap) => &mut matcap.color,
+            None => return,
+        },
+        ColorTarget::RimColor => &mut material.rim.color,
+        ColorTarget::OutlineColor => match &mut material.outline {
+            Some(outline) => &mut outline.color,
+            None => return,
+        },
+    };
+    for (channel, shift) in color.iter_mut().zip(shift) {
+        *channel += shift;
+    }
+}
+
+/// Every texture that takes part in `textureTransformBinds`: all but the matcap.
+fn textures_mut(material: &mut Material) -> impl Iterator<Item = &mut TextureRef> {
+    let Material { base, normal_map, emission, uv_animation, shading, rim, outline, .. } = material;
+    let (shade, shift) = match shading {
+        Shading::Toon(toon) => (toon.shade_texture.as_mut(), toon.shift_texture.as_mut()),
+        Shading::Unlit => (None, None),
+    };
+    [
+        base.texture.as_mut(),
+        shade,
+        shift,
+        normal_map.as_mut().map(|n| &mut n.texture),
+        emission.texture.as_mut(),
+        rim.mask.as_mut(),
+        outline.as_mut().and_then(|o| o.width_mask.as_mut()),
+        uv_animation.mask.as_mut(),
+    ]
+    .into_iter()
+    .flatten()
+}

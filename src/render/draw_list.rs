@@ -1,0 +1,51 @@
+//! Draws of a scene: made at upload in drawing order; only transparent ones are sorted by distance for each view.
+
+use glam::Vec3;
+
+use super::upload::GpuScene;
+
+/// One draw: a range of indices under one material, with the pipelines that show it.
+#[derive(Debug)]
+pub(crate) struct Draw {
+    pub material: usize,
+    pub indices: std::ops::Range<u32>,
+    /// Middle of the part at rest, character space.
+    pub center: Vec3,
+    pub blend: bool,
+    pub write_depth: bool,
+    pub queue_offset: i32,
+    pub surface: wgpu::RenderPipeline,
+    pub outline: Option<wgpu::RenderPipeline>,
+    pub prepass: wgpu::RenderPipeline,
+}
+
+impl GpuScene {
+    /// Sorts the blended draws: those that write depth first, then by queue offset, then far before near (MToon,
+    /// "Render Queue"); equal ones keep the order of the file.
+    pub(crate) fn sort_transparent(&mut self, eye: Vec3) {
+        let Self { draws, transparent_order, .. } = self;
+        transparent_order.clear();
+        transparent_order.extend((0..draws.len()).filter(|&i| draws[i].blend));
+        let depth = |i: usize| draws[i].center.distance_squared(eye);
+        transparent_order.sort_by(|&a, &b| {
+            let (x, y) = (&draws[a], &draws[b]);
+            (!x.write_depth, x.queue_offset).cmp(&(!y.write_depth, y.queue_offset)).then(depth(b).total_cmp(&depth(a)))
+        });
+    }
+}
+
+/// What every geometry pass binds before it draws.
+pub(crate) fn bind_scene(pass: &mut wgpu::RenderPass<'_>, scene: &GpuScene, frame: &wgpu::BindGroup) {
+    pass.set_bind_group(0, frame, &[]);
+    pass.set_vertex_buffer(0, scene.deform.deformed.slice(..));
+    pass.set_vertex_buffer(1, scene.static_vertices.slice(..));
+    pass.set_vertex_buffer(2, scene.instances.slice(..));
+    pass.set_index_buffer(scene.indices.slice(..), wgpu::IndexFormat::Uint32);
+}
+
+/// Draws `draw` with `pipeline`, once for each instance.
+pub(crate) fn record(pass: &mut wgpu::RenderPass<'_>, scene: &GpuScene, draw: &Draw, pipeline: &wgpu::RenderPipeline) {
+    pass.set_pipeline(pipeline);
+    pass.set_bind_group(2, &scene.material_groups[draw.material], &[]);
+    pass.draw_indexed(draw.indices.clone(), 0, 0..scene.instance_rows.len() as u32);
+}

@@ -1,0 +1,309 @@
+//! The renderer: a frame as one list of calls.
+
+pub(crate) mod draw_list;
+pub(crate) mod pass;
+mod readback;
+pub mod shaders;
+mod targets;
+mod textures;
+#[doc(hidden)]
+pub mod uniforms;
+mod upload;
+mod view;
+
+use std::time::Duration;
+
+pub use upload::{GpuMemory, GpuScene};
+pub use view::{Background, Channel, View};
+
+use crate::{Error, Gpu, Result, gpu::MAX_TEXTURE_SIDE, scene::Image};
+use pass::{
+    deform::{DeformInputs, DeformPass},
+    opaque::{OpaqueInputs, OpaquePass},
+    outline::{OutlineInputs, OutlinePass},
+    prepass::{PrepassInputs, PrepassPass},
+    transparent::{TransparentInputs, TransparentPass},
+};
+use targets::{ColorTargets, PrepassTargets};
+use uniforms::{AffineRows, FrameUniform};
+
+/// What a [`Renderer`] draws into.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Output {
+    /// Format of the target. Default: 8-bit sRGB, in which blending and the resolve of samples happen in linear light.
+    ///
+    /// A format without `Srgb` in its name is encoded by the shaders; blending and resolve then happen on encoded
+    /// values, as in WebGL renderers.
+    pub format: wgpu::TextureFormat,
+    /// Samples a pixel: 1 or 4. Default: 4.
+    pub samples: u32,
+}
+
+impl Default for Output {
+    fn default() -> Self {
+        Self { format: wgpu::TextureFormat::Rgba8UnormSrgb, samples: 4 }
+    }
+}
+
+/// Bind group layouts, by rate of change.
+#[derive(Debug)]
+pub(crate) struct Layouts {
+    /// Group 0.
+    pub frame: wgpu::BindGroupLayout,
+    /// Group 2.
+    pub material: wgpu::BindGroupLayout,
+    /// Of every pass that draws surfaces.
+    pub surface: wgpu::PipelineLayout,
+}
+
+/// Draws scenes. One for each device and output format.
+#[derive(Debug)]
+pub struct Renderer {
+    pub(crate) gpu: Gpu,
+    pub(crate) output: Output,
+    pub(crate) layouts: Layouts,
+    pub(crate) deform: DeformPass,
+    pub(crate) prepass: PrepassPass,
+    pub(crate) opaque: OpaquePass,
+    pub(crate) outline: OutlinePass,
+    pub(crate) transparent: TransparentPass,
+    frame_uniform: wgpu::Buffer,
+    frame_group: wgpu::BindGroup,
+    color_targets: Option<ColorTargets>,
+    prepass_targets: Option<PrepassTargets>,
+    picture_target: Option<wgpu::Texture>,
+}
+
+/// Longest wait for a frame before [`Error::Gpu`].
+const FRAME_TIMEOUT: Duration = Duration::from_secs(120);
+
+impl Renderer {
+    /// Makes a renderer with the default [`Output`].
+    ///
+    /// # Errors
+    /// [`Error::Gpu`] where the adapter refuses a resource.
+    pub fn new(gpu: &Gpu) -> Result<Self> {
+        Self::with_output(gpu, Output::default())
+    }
+
+    /// Makes a renderer for targets of a given format and number of samples.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for a number of samples other than 1 and 4; [`Error::Gpu`] where the adapter refuses a resource.
+    pub fn with_output(gpu: &Gpu, output: Output) -> Result<Self> {
+        if output.samples != 1 && output.samples != 4 {
+            let message = format!("is {}; expected 1 or 4", output.samples);
+            return Err(Error::Argument { what: "samples".to_owned(), message });
+        }
+        gpu.scoped(|| {
+            let layouts = Layouts::new(gpu);
+            let frame_uniform = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("frame"),
+                size: size_of::<FrameUniform>() as u64,
+                usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+                mapped_at_creation: false,
+            });
+            let frame_group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: Some("frame"),
+                layout: &layouts.frame,
+                entries: &[wgpu::BindGroupEntry { binding: 0, resource: frame_uniform.as_entire_binding() }],
+            });
+            Self {
+                gpu: gpu.clone(),
+                output,
+                layouts,
+                deform: DeformPass::new(gpu),
+                prepass: PrepassPass::new(gpu),
+                opaque: OpaquePass::new(gpu, output),
+                outline: OutlinePass::new(gpu, output),
+                transparent: TransparentPass::new(gpu, output),
+                frame_uniform,
+                frame_group,
+                color_targets: None,
+                prepass_targets: None,
+                picture_target: None,
+            }
+        })
+    }
+
+    /// Renders a view and reads it back: sRGB, straight alpha.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for a view out of its domain; [`Error::Gpu`] where the adapter fails or does not answer.
+    pub fn render(&mut self, scene: &mut GpuScene, view: &View) -> Result<Image> {
+        view.check()?;
+        let gpu = self.gpu.clone();
+        gpu.scoped(|| {
+            if view.channel != Channel::Final {
+                return self.render_channel(scene, view);
+            }
+            let texture = match self.picture_target.take() {
+                Some(t) if [t.width(), t.height()] == view.size => t,
+                _ => targets::target(&self.gpu, "picture", view.size, 1, self.output.format, true),
+            };
+            self.submit_frame(scene, view, &targets::view(&texture))?;
+            let texels = readback::read_texels(&self.gpu, &texture, FRAME_TIMEOUT)?;
+            self.picture_target = Some(texture);
+            Ok(readback::picture(view.size, texels))
+        })?
+    }
+
+    fn submit_frame(&mut self, scene: &mut GpuScene, view: &View, target: &wgpu::TextureView) -> Result<()> {
+        let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
+        self.encode_frame(&mut encoder, scene, view, target)?;
+        self.gpu.queue.submit([encoder.finish()]);
+        Ok(())
+    }
+
+    /// Encodes a view into `target`, which has the format of this renderer's [`Output`], the size of the view, and one
+    /// sample a pixel. The application submits.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for a view out of its domain.
+    pub fn encode_frame(
+        &mut self,
+        encoder: &mut wgpu::CommandEncoder,
+        scene: &mut GpuScene,
+        view: &View,
+        target: &wgpu::TextureView,
+    ) -> Result<()> {
+        view.check()?;
+        self.begin_frame(scene, view);
+        // Skinned and morphed vertices; only where the pose has changed.
+        self.encode_deform(encoder, scene, None);
+        // One colour pass: opaque, outlines and transparent share their targets, so samples are resolved once.
+        let mut pass = self.begin_color_pass(encoder, view, target, None);
+        draw_list::bind_scene(&mut pass, scene, &self.frame_group);
+        // Body, face, hair.
+        self.opaque.encode(&mut pass, &OpaqueInputs { scene });
+        // Lines around them, hidden where a surface is nearer.
+        self.outline.encode(&mut pass, &OutlineInputs { scene });
+        // What is seen through, far before near.
+        self.transparent.encode(&mut pass, &TransparentInputs { scene });
+        Ok(())
+    }
+
+    /// Writes what changes with the view: uniforms, instances, order of transparent draws, targets of a new size.
+    pub(crate) fn begin_frame(&mut self, scene: &mut GpuScene, view: &View) {
+        self.gpu.queue.write_buffer(&self.frame_uniform, 0, bytemuck::bytes_of(&FrameUniform::new(view)));
+        let rows = view.instances.iter().map(|m| AffineRows::from(*m));
+        let changed = scene.instance_rows.len() != view.instances.len()
+            || rows.clone().zip(&scene.instance_rows).any(|(a, b)| bytemuck::bytes_of(&a) != bytemuck::bytes_of(b));
+        if changed {
+            scene.instance_rows.clear();
+            scene.instance_rows.extend(rows);
+            if scene.instance_rows.len() > scene.instance_capacity {
+                scene.instance_capacity = scene.instance_rows.len().next_power_of_two();
+                scene.instances = upload::instance_buffer(&self.gpu, scene.instance_capacity);
+            }
+            self.gpu.queue.write_buffer(&scene.instances, 0, bytemuck::cast_slice(&scene.instance_rows));
+        }
+        scene.sort_transparent(view.camera.eye);
+        if self.color_targets.as_ref().is_none_or(|t| t.size != view.size) && view.channel == Channel::Final {
+            self.color_targets = Some(ColorTargets::new(&self.gpu, view.size, self.output));
+        }
+    }
+
+    pub(crate) fn encode_deform(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        scene: &mut GpuScene,
+        timestamps: Option<wgpu::ComputePassTimestampWrites<'_>>,
+    ) {
+        if std::mem::take(&mut scene.deform_pending) {
+            self.deform.encode(encoder, &DeformInputs { scene }, timestamps);
+        }
+    }
+
+    pub(crate) fn begin_color_pass<'a>(
+        &self,
+        encoder: &'a mut wgpu::CommandEncoder,
+        view: &View,
+        target: &wgpu::TextureView,
+        timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
+    ) -> wgpu::RenderPass<'a> {
+        let targets = self.color_targets.as_ref();
+        let multisampled = targets.and_then(|t| t.multisampled.as_ref());
+        // Samples that are resolved need not be kept.
+        let store = if multisampled.is_some() { wgpu::StoreOp::Discard } else { wgpu::StoreOp::Store };
+        encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("colour"),
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view: multisampled.unwrap_or(target),
+                depth_slice: None,
+                resolve_target: multisampled.map(|_| target),
+                ops: wgpu::Operations { load: wgpu::LoadOp::Clear(view.background.clear_color(self.output)), store },
+            })],
+            depth_stencil_attachment: targets.map(|t| wgpu::RenderPassDepthStencilAttachment {
+                view: &t.depth,
+                depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Discard }),
+                stencil_ops: None,
+            }),
+            timestamp_writes: timestamps,
+            ..Default::default()
+        })
+    }
+
+    pub(crate) fn frame_group(&self) -> &wgpu::BindGroup {
+        &self.frame_group
+    }
+
+    /// Renders one of the prepass's channels as a picture.
+    fn render_channel(&mut self, scene: &mut GpuScene, view: &View) -> Result<Image> {
+        self.begin_frame(scene, view);
+        let targets = match self.prepass_targets.take() {
+            Some(t) if t.size == view.size => t,
+            _ => PrepassTargets::new(&self.gpu, view.size),
+        };
+        let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("channel") });
+        self.encode_deform(&mut encoder, scene, None);
+        // Depth, normal and part id.
+        self.prepass.encode(&mut encoder, &PrepassInputs { scene, frame: &self.frame_group, targets: &targets });
+        self.gpu.queue.submit([encoder.finish()]);
+        let texture = match view.channel {
+            Channel::Depth => &targets.depth,
+            Channel::PartId => &targets.part,
+            Channel::Final | Channel::Normal => &targets.normal,
+        };
+        let texels = readback::read_texels(&self.gpu, texture, FRAME_TIMEOUT)?;
+        self.prepass_targets = Some(targets);
+        Ok(view.channel.picture(view, texels))
+    }
+}
+
+impl Layouts {
+    fn new(gpu: &Gpu) -> Self {
+        let uniform = |size| wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Uniform,
+            has_dynamic_offset: false,
+            min_binding_size: wgpu::BufferSize::new(size),
+        };
+        let both = wgpu::ShaderStages::VERTEX_FRAGMENT;
+        let entry = |binding, visibility, ty| wgpu::BindGroupLayoutEntry { binding, visibility, ty, count: None };
+        let frame = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("frame"),
+            entries: &[entry(0, both, uniform(size_of::<FrameUniform>() as u64))],
+        });
+        let mut entries = vec![entry(0, both, uniform(size_of::<uniforms::MaterialUniform>() as u64))];
+        for slot in 0..9 {
+            // Only the width mask of the outline (slot 7) is read by vertices.
+            let stages = if slot == 7 { both } else { wgpu::ShaderStages::FRAGMENT };
+            entries.push(entry(1 + 2 * slot, stages, wgpu::BindingType::Texture {
+                sample_type: wgpu::TextureSampleType::Float { filterable: true },
+                view_dimension: wgpu::TextureViewDimension::D2,
+                multisampled: false,
+            }));
+            entries.push(entry(2 + 2 * slot, stages, wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering)));
+        }
+        let material = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("material"),
+            entries: &entries,
+        });
+        let surface = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some("surface"),
+            bind_group_layouts: &[Some(&frame), None, Some(&material)],
+            immediate_size: 0,
+        });
+        Self { frame, material, surface }
+    }
+}

@@ -1,0 +1,135 @@
+//! Morphs and skin in compute: once for every new pose, read by every later pass.
+
+use wgpu::util::DeviceExt;
+
+use crate::{
+    Gpu,
+    render::{
+        shaders,
+        uniforms::{AffineRows, DeformGroup, DeformVertex, MorphEntry},
+        upload::GpuScene,
+    },
+};
+
+const WORKGROUP: u32 = 64;
+/// Most workgroups along one axis in WebGPU; `wgsl/pass/deform.wgsl` counts rows of as many.
+const MAX_WORKGROUPS: u32 = 65535;
+
+/// The compute pipeline.
+#[derive(Debug)]
+pub(crate) struct DeformPass {
+    pipeline: wgpu::ComputePipeline,
+}
+
+/// CPU side of the buffers.
+pub(crate) struct DeformInput<'a> {
+    pub groups: &'a [DeformGroup],
+    pub source: &'a [DeformVertex],
+    pub vertex_refs: &'a [[u32; 2]],
+    pub influences: &'a [u32],
+    pub morphs: &'a [MorphEntry],
+    pub joint_count: usize,
+    pub weight_count: usize,
+}
+
+/// Buffers of one scene.
+#[derive(Debug)]
+pub(crate) struct DeformBuffers {
+    pub joints: wgpu::Buffer,
+    pub weights: wgpu::Buffer,
+    /// First vertex stream of every draw.
+    pub deformed: wgpu::Buffer,
+    pub joint_count: usize,
+    pub weight_count: usize,
+    group: wgpu::BindGroup,
+    vertices: u32,
+    fixed_bytes: u64,
+}
+
+/// What the pass reads and writes.
+pub(crate) struct DeformInputs<'a> {
+    pub scene: &'a GpuScene,
+}
+
+impl DeformPass {
+    pub fn new(gpu: &Gpu) -> Self {
+        let pipeline = gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label: Some("deform"),
+            layout: None,
+            module: &shaders::module(&gpu.device, "deform"),
+            entry_point: Some("main"),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            cache: None,
+        });
+        Self { pipeline }
+    }
+
+    /// Uploads what deforms a scene.
+    pub fn buffers(&self, gpu: &Gpu, input: &DeformInput<'_>) -> DeformBuffers {
+        use wgpu::BufferUsages as U;
+        let fixed = |label, contents: &[u8]| {
+            // Empty bindings are invalid; one unread element stands for nothing.
+            let contents = if contents.is_empty() { &[0u8; 64] } else { contents };
+            gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                label: Some(label),
+                contents,
+                usage: U::STORAGE,
+            })
+        };
+        let sized = |label, bytes: usize, usage| {
+            gpu.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(label),
+                size: bytes.max(64) as u64,
+                usage,
+                mapped_at_creation: false,
+            })
+        };
+        let groups = fixed("deform groups", bytemuck::cast_slice(input.groups));
+        let source = fixed("source vertices", bytemuck::cast_slice(input.source));
+        let vertex_refs = fixed("vertex refs", bytemuck::cast_slice(input.vertex_refs));
+        let influences = fixed("influences", bytemuck::cast_slice(input.influences));
+        let morphs = fixed("morphs", bytemuck::cast_slice(input.morphs));
+        let joints = sized("joints", input.joint_count * size_of::<AffineRows>(), U::STORAGE | U::COPY_DST);
+        let weights = sized("morph weights", input.weight_count * size_of::<f32>(), U::STORAGE | U::COPY_DST);
+        let deformed = sized("deformed vertices", size_of_val(input.source), U::STORAGE | U::VERTEX);
+        let bound = [&groups, &source, &vertex_refs, &influences, &morphs, &joints, &weights, &deformed];
+        let entries: Vec<_> = (0u32..)
+            .zip(bound)
+            .map(|(binding, buffer)| wgpu::BindGroupEntry { binding, resource: buffer.as_entire_binding() })
+            .collect();
+        let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("deform"),
+            layout: &self.pipeline.get_bind_group_layout(0),
+            entries: &entries,
+        });
+        let fixed_bytes = bound[..5].iter().map(|b| b.size()).sum();
+        DeformBuffers {
+            joints,
+            weights,
+            deformed,
+            joint_count: input.joint_count,
+            weight_count: input.weight_count,
+            group,
+            vertices: input.source.len() as u32,
+            fixed_bytes,
+        }
+    }
+
+    /// Deforms all vertices of the scene.
+    pub fn encode(&self, encoder: &mut wgpu::CommandEncoder, inputs: &DeformInputs<'_>, timestamps: Option<wgpu::ComputePassTimestampWrites<'_>>) {
+        let buffers = &inputs.scene.deform;
+        let mut pass = encoder
+            .begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("deform"), timestamp_writes: timestamps });
+        pass.set_pipeline(&self.pipeline);
+        pass.set_bind_group(0, &buffers.group, &[]);
+        let workgroups = buffers.vertices.div_ceil(WORKGROUP);
+        pass.dispatch_workgroups(workgroups.min(MAX_WORKGROUPS), workgroups.div_ceil(MAX_WORKGROUPS).max(1), 1);
+    }
+}
+
+impl DeformBuffers {
+    /// Bytes on the GPU.
+    pub fn bytes(&self) -> u64 {
+        self.fixed_bytes + self.joints.size() + self.weights.size() + self.deformed.size()
+    }
+}

@@ -1,0 +1,179 @@
+//! Passes: one file each, with the shader of the same stem in `wgsl/pass/`; what they share stands here.
+
+pub(crate) mod deform;
+pub(crate) mod floor;
+pub(crate) mod opaque;
+pub(crate) mod outline;
+pub(crate) mod prepass;
+pub(crate) mod transparent;
+
+use super::{Layouts, Output};
+use crate::{
+    Gpu,
+    material::{AlphaMode, Material, Shading, TextureRef, UvTransform},
+};
+
+/// Depth format of every target.
+pub(crate) const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+
+/// Parts of a surface that a pipeline includes: the overrides of `wgsl/bind/options.wgsl`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub(crate) struct SurfaceFlags {
+    pub unlit: bool,
+    pub base_texture: bool,
+    pub shade_texture: bool,
+    pub shift_texture: bool,
+    pub normal_map: bool,
+    pub emission_texture: bool,
+    pub matcap: bool,
+    pub rim: bool,
+    pub rim_mask: bool,
+    pub uv_transforms: bool,
+    pub uv_animation: bool,
+    pub uv_animation_mask: bool,
+    pub vertex_color: bool,
+    pub alpha_mask: bool,
+}
+
+impl SurfaceFlags {
+    /// What a material uses.
+    pub fn of(material: &Material, has_vertex_colors: bool) -> Self {
+        let toon = match &material.shading {
+            Shading::Toon(toon) => Some(toon),
+            Shading::Unlit => None,
+        };
+        let rim = toon.is_some() && material.rim.color != [0.0; 3];
+        let matcap = toon.is_some() && material.matcap.is_some_and(|m| m.color != [0.0; 3]);
+        let shade_texture = toon.and_then(|t| t.shade_texture);
+        let shift_texture = toon.and_then(|t| t.shift_texture);
+        let normal_map = material.normal_map.filter(|_| toon.is_some());
+        let rim_mask = material.rim.mask.filter(|_| rim || matcap);
+        let outline_mask = material.outline.and_then(|o| o.width_mask);
+        let uv_animation = material.uv_animation.is_active();
+        let animation_mask = material.uv_animation.mask.filter(|_| uv_animation);
+        let used = [
+            material.base.texture,
+            shade_texture,
+            shift_texture,
+            normal_map.map(|n| n.texture),
+            material.emission.texture,
+            rim_mask,
+            outline_mask,
+            animation_mask,
+        ];
+        let moved = |t: &TextureRef| t.uv_set != 0 || t.transform != UvTransform::default();
+        Self {
+            unlit: toon.is_none(),
+            base_texture: material.base.texture.is_some(),
+            shade_texture: shade_texture.is_some(),
+            shift_texture: shift_texture.is_some(),
+            normal_map: normal_map.is_some(),
+            emission_texture: material.emission.texture.is_some(),
+            matcap,
+            rim,
+            rim_mask: rim_mask.is_some(),
+            uv_transforms: used.iter().flatten().any(moved),
+            uv_animation,
+            uv_animation_mask: animation_mask.is_some(),
+            vertex_color: has_vertex_colors,
+            alpha_mask: material.alpha.mode == AlphaMode::Mask,
+        }
+    }
+
+    /// Values of the overrides of `wgsl/bind/options.wgsl`.
+    pub fn constants(&self) -> Vec<(&'static str, f64)> {
+        [
+            ("UNLIT", self.unlit),
+            ("BASE_TEXTURE", self.base_texture),
+            ("SHADE_TEXTURE", self.shade_texture),
+            ("SHIFT_TEXTURE", self.shift_texture),
+            ("NORMAL_MAP", self.normal_map),
+            ("EMISSION_TEXTURE", self.emission_texture),
+            ("MATCAP", self.matcap),
+            ("RIM", self.rim),
+            ("RIM_MASK", self.rim_mask),
+            ("UV_TRANSFORMS", self.uv_transforms),
+            ("UV_ANIMATION", self.uv_animation),
+            ("UV_ANIMATION_MASK", self.uv_animation_mask),
+            ("VERTEX_COLOR", self.vertex_color),
+            ("ALPHA_MASK", self.alpha_mask),
+        ]
+        .map(|(name, on)| (name, f64::from(u8::from(on))))
+        .to_vec()
+    }
+}
+
+/// Vertex streams, as `wgsl/bind/vertex.wgsl` reads them.
+pub(crate) fn vertex_buffers() -> [Option<wgpu::VertexBufferLayout<'static>>; 3] {
+    const DEFORMED: &[wgpu::VertexAttribute] = &wgpu::vertex_attr_array![0 => Float32x3, 1 => Uint32x3];
+    const STATIC: &[wgpu::VertexAttribute] = &wgpu::vertex_attr_array![2 => Float32x4, 3 => Unorm8x4, 4 => Uint32];
+    const INSTANCE: &[wgpu::VertexAttribute] =
+        &wgpu::vertex_attr_array![5 => Float32x4, 6 => Float32x4, 7 => Float32x4];
+    let layout = |array_stride, step_mode, attributes| Some(wgpu::VertexBufferLayout { array_stride, step_mode, attributes });
+    [
+        layout(24, wgpu::VertexStepMode::Vertex, DEFORMED),
+        layout(24, wgpu::VertexStepMode::Vertex, STATIC),
+        layout(48, wgpu::VertexStepMode::Instance, INSTANCE),
+    ]
+}
+
+/// What differs between the pipelines that draw surfaces into the colour target.
+pub(crate) struct ColorPipeline<'a> {
+    pub label: &'a str,
+    pub module: &'a wgpu::ShaderModule,
+    pub constants: &'a [(&'a str, f64)],
+    pub cull: Option<wgpu::Face>,
+    pub blend: bool,
+    pub write_depth: bool,
+}
+
+/// Pipeline of a pass that draws into the colour target.
+pub(crate) fn color_pipeline(gpu: &Gpu, layouts: &Layouts, output: Output, desc: &ColorPipeline<'_>) -> wgpu::RenderPipeline {
+    let options = || wgpu::PipelineCompilationOptions { constants: desc.constants, ..Default::default() };
+    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some(desc.label),
+        layout: Some(&layouts.surface),
+        vertex: wgpu::VertexState {
+            module: desc.module,
+            entry_point: Some("vs_main"),
+            compilation_options: options(),
+            buffers: &vertex_buffers(),
+        },
+        primitive: wgpu::PrimitiveState { cull_mode: desc.cull, ..Default::default() },
+        depth_stencil: Some(depth_state(desc.write_depth)),
+        multisample: wgpu::MultisampleState { count: output.samples, ..Default::default() },
+        fragment: Some(wgpu::FragmentState {
+            module: desc.module,
+            entry_point: Some("fs_main"),
+            compilation_options: options(),
+            targets: &[Some(wgpu::ColorTargetState {
+                format: output.format,
+                blend: desc.blend.then_some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
+                write_mask: wgpu::ColorWrites::ALL,
+            })],
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}
+
+/// Reverse-Z depth test.
+pub(crate) fn depth_state(write: bool) -> wgpu::DepthStencilState {
+    wgpu::DepthStencilState {
+        format: DEPTH_FORMAT,
+        depth_write_enabled: Some(write),
+        depth_compare: Some(wgpu::CompareFunction::GreaterEqual),
+        stencil: wgpu::StencilState::default(),
+        bias: wgpu::DepthBiasState::default(),
+    }
+}
+
+/// Culling of a surface.
+pub(crate) fn surface_cull(material: &Material) -> Option<wgpu::Face> {
+    (!material.double_sided).then_some(wgpu::Face::Back)
+}
+
+/// Whether the shader must encode sRGB because the target does not.
+pub(crate) fn encode_constant(output: Output) -> (&'static str, f64) {
+    ("ENCODE_SRGB", if output.format.is_srgb() { 0.0 } else { 1.0 })
+}

@@ -1,0 +1,53 @@
+//! Opaque and alpha-masked surfaces.
+
+use std::collections::HashMap;
+
+use super::{ColorPipeline, SurfaceFlags, color_pipeline, encode_constant, surface_cull};
+use crate::{
+    Gpu,
+    material::Material,
+    render::{Layouts, Output, draw_list, shaders, upload::GpuScene},
+};
+
+/// Pipelines by what a material uses.
+#[derive(Debug)]
+pub(crate) struct OpaquePass {
+    output: Output,
+    module: wgpu::ShaderModule,
+    pipelines: HashMap<(SurfaceFlags, bool), wgpu::RenderPipeline>,
+}
+
+/// What the pass reads.
+pub(crate) struct OpaqueInputs<'a> {
+    pub scene: &'a GpuScene,
+}
+
+impl OpaquePass {
+    pub fn new(gpu: &Gpu, output: Output) -> Self {
+        Self { output, module: shaders::module(&gpu.device, "opaque"), pipelines: HashMap::new() }
+    }
+
+    /// The pipeline for a material, made on first use.
+    pub fn pipeline(&mut self, gpu: &Gpu, layouts: &Layouts, flags: SurfaceFlags, material: &Material) -> wgpu::RenderPipeline {
+        let make = || {
+            let mut constants = flags.constants();
+            constants.push(encode_constant(self.output));
+            color_pipeline(gpu, layouts, self.output, &ColorPipeline {
+                label: "opaque",
+                module: &self.module,
+                constants: &constants,
+                cull: surface_cull(material),
+                blend: false,
+                write_depth: true,
+            })
+        };
+        self.pipelines.entry((flags, material.double_sided)).or_insert_with(make).clone()
+    }
+
+    /// Draws all opaque surfaces, then all masked ones (the order of upload).
+    pub fn encode(&self, pass: &mut wgpu::RenderPass<'_>, inputs: &OpaqueInputs<'_>) {
+        for draw in inputs.scene.draws.iter().filter(|d| !d.blend) {
+            draw_list::record(pass, inputs.scene, draw, &draw.surface);
+        }
+    }
+}

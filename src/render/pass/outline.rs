@@ -1,0 +1,100 @@
+//! Outlines of opaque surfaces: back faces pushed outwards.
+
+use std::collections::HashMap;
+
+use super::{ColorPipeline, SurfaceFlags, color_pipeline, encode_constant};
+use crate::{
+    Gpu,
+    material::{AlphaMode, Material, OutlineWidth},
+    render::{Layouts, Output, draw_list, shaders, upload::GpuScene},
+};
+
+/// Pipelines by what a material uses.
+#[derive(Debug)]
+pub(crate) struct OutlinePass {
+    output: Output,
+    module: wgpu::ShaderModule,
+    pipelines: HashMap<OutlineKey, wgpu::RenderPipeline>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+struct OutlineKey {
+    flags: SurfaceFlags,
+    screen_width: bool,
+    width_mask: bool,
+    shaded: bool,
+    blend: bool,
+    write_depth: bool,
+}
+
+/// What the pass reads.
+pub(crate) struct OutlineInputs<'a> {
+    pub scene: &'a GpuScene,
+}
+
+impl OutlinePass {
+    pub fn new(gpu: &Gpu, output: Output) -> Self {
+        Self { output, module: shaders::module(&gpu.device, "outline"), pipelines: HashMap::new() }
+    }
+
+    /// The pipeline for a material, made on first use; `None` where it has no outline.
+    pub fn pipeline(
+        &mut self,
+        gpu: &Gpu,
+        layouts: &Layouts,
+        flags: SurfaceFlags,
+        material: &Material,
+    ) -> Option<wgpu::RenderPipeline> {
+        let outline = material.outline?;
+        let (width, screen_width) = match outline.width {
+            OutlineWidth::World { metres } => (metres, false),
+            OutlineWidth::Screen { height_ratio } => (height_ratio, true),
+        };
+        if width <= 0.0 {
+            return None;
+        }
+        let blend = material.alpha.mode == AlphaMode::Blend;
+        let shaded = outline.lighting_mix > 0.0 || material.alpha.mode != AlphaMode::Opaque;
+        let mut key = OutlineKey {
+            flags,
+            screen_width,
+            width_mask: outline.width_mask.is_some(),
+            shaded,
+            blend,
+            write_depth: !blend || material.alpha.write_depth,
+        };
+        if !shaded {
+            // A plain colour needs nothing of the surface but the UVs of its mask: fewer pipelines.
+            key.flags = SurfaceFlags { uv_transforms: flags.uv_transforms, ..SurfaceFlags::default() };
+        }
+        let make = || {
+            let mut constants = key.flags.constants();
+            let flag = |on: bool| f64::from(u8::from(on));
+            constants.extend([
+                encode_constant(self.output),
+                ("SCREEN_WIDTH", flag(key.screen_width)),
+                ("WIDTH_MASK", flag(key.width_mask)),
+                ("OUTLINE_SHADED", flag(key.shaded)),
+                ("OUTLINE_BLEND", flag(key.blend)),
+            ]);
+            color_pipeline(gpu, layouts, self.output, &ColorPipeline {
+                label: "outline",
+                module: &self.module,
+                constants: &constants,
+                cull: Some(wgpu::Face::Front),
+                blend: key.blend,
+                write_depth: key.write_depth,
+            })
+        };
+        Some(self.pipelines.entry(key).or_insert_with(make).clone())
+    }
+
+    /// Draws the outlines of all opaque surfaces.
+    pub fn encode(&self, pass: &mut wgpu::RenderPass<'_>, inputs: &OutlineInputs<'_>) {
+        for draw in inputs.scene.draws.iter().filter(|d| !d.blend) {
+            if let Some(outline) = &draw.outline {
+                draw_list::record(pass, inputs.scene, draw, outline);
+            }
+        }
+    }
+}

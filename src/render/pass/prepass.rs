@@ -1,0 +1,95 @@
+//! Depth, view-space normal and part id, one sample a pixel, for effects and channels that read them.
+
+use std::collections::HashMap;
+
+use super::{SurfaceFlags, depth_state, surface_cull, vertex_buffers};
+use crate::{
+    Gpu,
+    material::{AlphaMode, Material},
+    render::{Layouts, draw_list, shaders, targets::PrepassTargets, upload::GpuScene},
+};
+
+/// Format of the view-space normal, 0..1.
+pub(crate) const NORMAL_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+/// Format of the part index + 1.
+pub(crate) const PART_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
+
+/// Pipelines by culling and cut-out.
+#[derive(Debug)]
+pub(crate) struct PrepassPass {
+    module: wgpu::ShaderModule,
+    pipelines: HashMap<(SurfaceFlags, bool, bool), wgpu::RenderPipeline>,
+}
+
+/// What the pass reads and writes.
+pub(crate) struct PrepassInputs<'a> {
+    pub scene: &'a GpuScene,
+    pub frame: &'a wgpu::BindGroup,
+    pub targets: &'a PrepassTargets,
+}
+
+impl PrepassPass {
+    pub fn new(gpu: &Gpu) -> Self {
+        Self { module: shaders::module(&gpu.device, "prepass"), pipelines: HashMap::new() }
+    }
+
+    /// The pipeline for a material, made on first use.
+    pub fn pipeline(&mut self, gpu: &Gpu, layouts: &Layouts, flags: SurfaceFlags, material: &Material) -> wgpu::RenderPipeline {
+        let alpha_test = material.alpha.mode != AlphaMode::Opaque;
+        // Without a cut-out nothing is sampled: one pipeline serves all.
+        let flags = if alpha_test { flags } else { SurfaceFlags::default() };
+        let make = || {
+            let mut constants = flags.constants();
+            constants.push(("ALPHA_TEST", f64::from(u8::from(alpha_test))));
+            let options = || wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
+            gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+                label: Some("prepass"),
+                layout: Some(&layouts.surface),
+                vertex: wgpu::VertexState {
+                    module: &self.module,
+                    entry_point: Some("vs_main"),
+                    compilation_options: options(),
+                    buffers: &vertex_buffers(),
+                },
+                primitive: wgpu::PrimitiveState { cull_mode: surface_cull(material), ..Default::default() },
+                depth_stencil: Some(depth_state(true)),
+                multisample: wgpu::MultisampleState::default(),
+                fragment: Some(wgpu::FragmentState {
+                    module: &self.module,
+                    entry_point: Some("fs_main"),
+                    compilation_options: options(),
+                    targets: &[Some(NORMAL_FORMAT.into()), Some(PART_FORMAT.into())],
+                }),
+                multiview_mask: None,
+                cache: None,
+            })
+        };
+        self.pipelines.entry((flags, alpha_test, material.double_sided)).or_insert_with(make).clone()
+    }
+
+    /// Draws every surface.
+    pub fn encode(&self, encoder: &mut wgpu::CommandEncoder, inputs: &PrepassInputs<'_>) {
+        let attach = |view| {
+            Some(wgpu::RenderPassColorAttachment {
+                view,
+                depth_slice: None,
+                resolve_target: None,
+                ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT), store: wgpu::StoreOp::Store },
+            })
+        };
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("prepass"),
+            color_attachments: &[attach(&inputs.targets.normal_view), attach(&inputs.targets.part_view)],
+            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                view: &inputs.targets.depth_view,
+                depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store }),
+                stencil_ops: None,
+            }),
+            ..Default::default()
+        });
+        draw_list::bind_scene(&mut pass, inputs.scene, inputs.frame);
+        for draw in &inputs.scene.draws {
+            draw_list::record(&mut pass, inputs.scene, draw, &draw.prepass);
+        }
+    }
+}

@@ -1,0 +1,240 @@
+//! Images to GPU textures: mip chains made on all cores, averaged in linear light where the image is a colour.
+
+use std::collections::HashMap;
+
+use rayon::prelude::*;
+
+use crate::{
+    Error, Gpu, Result,
+    color::{linear_from_srgb, srgb_from_linear},
+    gpu::MAX_TEXTURE_SIDE,
+    scene::{Filter, Image, Sampler, Scene, Wrap},
+};
+
+/// What the numbers of an image mean.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(crate) enum Encoding {
+    /// sRGB colour with straight alpha.
+    Srgb,
+    /// Plain numbers: masks, normal maps.
+    Linear,
+}
+
+/// GPU textures and samplers of a scene, each made once.
+#[derive(Debug)]
+pub(crate) struct TextureSet {
+    views: HashMap<(usize, Encoding), wgpu::TextureView>,
+    samplers: HashMap<Sampler, wgpu::Sampler>,
+    /// White, sRGB: stands where a material has no texture.
+    white: wgpu::TextureView,
+    default_sampler: wgpu::Sampler,
+    /// Texel bytes of all textures, mips included.
+    pub bytes: u64,
+}
+
+impl TextureSet {
+    /// Uploads every image once for each encoding in `uses` (texture index, encoding).
+    pub fn new(gpu: &Gpu, scene: &Scene, uses: &[(usize, Encoding)]) -> Result<Self> {
+        let mut wanted: Vec<(usize, Encoding)> =
+            uses.iter().filter_map(|&(texture, e)| Some((scene.textures.get(texture)?.image, e))).collect();
+        wanted.sort_unstable();
+        wanted.dedup();
+        let tables = Tables::new();
+        let mut views = HashMap::new();
+        let mut bytes = 0;
+        // A few at a time: the mip chains of one batch are made in parallel, and only its copies live at once.
+        for batch in wanted.chunks(rayon::current_num_threads().max(1)) {
+            let chains: Vec<Option<Vec<Level>>> = batch
+                .par_iter()
+                .map(|&(image, encoding)| Some(mip_chain(scene.images.get(image)?, encoding, &tables)))
+                .collect();
+            for (&(index, encoding), chain) in batch.iter().zip(&chains) {
+                let (Some(image), Some(chain)) = (scene.images.get(index), chain) else { continue };
+                views.insert((index, encoding), upload(gpu, image, chain, encoding)?);
+                bytes += image.pixels.len() as u64 + chain.iter().map(|l| l.pixels.len() as u64).sum::<u64>();
+            }
+            // Hands the staging memory of this batch back before the next one is made.
+            gpu.queue.submit([]);
+        }
+        let white = Image { width: 1, height: 1, pixels: vec![255; 4], ..Image::default() };
+        let mut samplers = HashMap::new();
+        for texture in &scene.textures {
+            samplers.entry(texture.sampler).or_insert_with(|| sampler(gpu, texture.sampler));
+        }
+        Ok(Self {
+            views,
+            samplers,
+            white: upload(gpu, &white, &[], Encoding::Srgb)?,
+            default_sampler: sampler(gpu, Sampler::default()),
+            bytes,
+        })
+    }
+
+    /// View and sampler of a scene's texture, or white.
+    pub fn get(&self, scene: &Scene, texture: Option<usize>, encoding: Encoding) -> (&wgpu::TextureView, &wgpu::Sampler) {
+        let texture = texture.and_then(|t| scene.textures.get(t));
+        let found = texture.and_then(|t| Some((self.views.get(&(t.image, encoding))?, self.samplers.get(&t.sampler)?)));
+        found.unwrap_or((&self.white, &self.default_sampler))
+    }
+}
+
+struct Level {
+    width: u32,
+    height: u32,
+    pixels: Vec<u8>,
+}
+
+/// Lookup tables of the transfer function: mips of a character's textures are tens of millions of conversions.
+struct Tables {
+    linear: [u16; 256],
+    srgb: Vec<u8>,
+}
+
+impl Tables {
+    fn new() -> Self {
+        Self {
+            linear: std::array::from_fn(|code| (linear_from_srgb(code as f32 / 255.0) * 65535.0).round() as u16),
+            srgb: (0..=0xffffu32)
+                .map(|linear| (srgb_from_linear(linear as f32 / 65535.0) * 255.0).round() as u8)
+                .collect(),
+        }
+    }
+}
+
+/// All levels below the full size.
+fn mip_chain(image: &Image, encoding: Encoding, tables: &Tables) -> Vec<Level> {
+    let mut levels: Vec<Level> = Vec::new();
+    let (mut width, mut height) = (image.width, image.height);
+    while width > 1 || height > 1 {
+        let source = levels.last().map_or(image.pixels.as_slice(), |l| l.pixels.as_slice());
+        let next = halve(source, width, height, encoding, tables);
+        (width, height) = (next.width, next.height);
+        levels.push(next);
+    }
+    levels
+}
+
+/// Box filter to half size; an odd last row or column counts twice in its own texel only.
+fn halve(source: &[u8], width: u32, height: u32, encoding: Encoding, tables: &Tables) -> Level {
+    let (w, h) = ((width / 2).max(1), (height / 2).max(1));
+    let stride = width as usize * 4;
+    let mut pixels = vec![0u8; w as usize * h as usize * 4];
+    for (y, row) in pixels.chunks_exact_mut(w as usize * 4).enumerate() {
+        let top = &source[(2 * y).min(height as usize - 1) * stride..][..stride];
+        let bottom = &source[(2 * y + 1).min(height as usize - 1) * stride..][..stride];
+        for (x, out) in row.chunks_exact_mut(4).enumerate() {
+            let left = (2 * x).min(width as usize - 1) * 4;
+            let right = (2 * x + 1).min(width as usize - 1) * 4;
+            let texels = [&top[left..left + 4], &top[right..right + 4], &bottom[left..left + 4], &bottom[right..right + 4]];
+            for c in 0..3 {
+                out[c] = match encoding {
+                    Encoding::Srgb => {
+                        let sum: u32 = texels.iter().map(|t| u32::from(tables.linear[t[c] as usize])).sum();
+                        tables.srgb[((sum + 2) / 4) as usize]
+                    }
+                    Encoding::Linear => average(texels.map(|t| t[c])),
+                };
+            }
+            out[3] = average(texels.map(|t| t[3]));
+        }
+    }
+    Level { width: w, height: h, pixels }
+}
+
+fn average(values: [u8; 4]) -> u8 {
+    ((values.iter().map(|&v| u32::from(v)).sum::<u32>() + 2) / 4) as u8
+}
+
+fn upload(gpu: &Gpu, image: &Image, mips: &[Level], encoding: Encoding) -> Result<wgpu::TextureView> {
+    let side = image.width.max(image.height);
+    if side > MAX_TEXTURE_SIDE || image.pixels.len() as u64 != u64::from(image.width) * u64::from(image.height) * 4 {
+        return Err(Error::Argument {
+            what: format!("image {:?}", image.name),
+            message: format!(
+                "is {}x{} with {} bytes; expected width * height * 4 bytes and at most {MAX_TEXTURE_SIDE} texels a side",
+                image.width,
+                image.height,
+                image.pixels.len()
+            ),
+        });
+    }
+    let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some(&image.name),
+        size: wgpu::Extent3d { width: image.width, height: image.height, depth_or_array_layers: 1 },
+        mip_level_count: mips.len() as u32 + 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: match encoding {
+            Encoding::Srgb => wgpu::TextureFormat::Rgba8UnormSrgb,
+            Encoding::Linear => wgpu::TextureFormat::Rgba8Unorm,
+        },
+        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+        view_formats: &[],
+    });
+    let full = (image.width, image.height, image.pixels.as_slice());
+    let levels = std::iter::once(full).chain(mips.iter().map(|l| (l.width, l.height, l.pixels.as_slice())));
+    for (mip_level, (width, height, pixels)) in levels.enumerate() {
+        gpu.queue.write_texture(
+            wgpu::TexelCopyTextureInfo {
+                texture: &texture,
+                mip_level: mip_level as u32,
+                origin: wgpu::Origin3d::ZERO,
+                aspect: wgpu::TextureAspect::All,
+            },
+            pixels,
+            wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(width * 4), rows_per_image: None },
+            wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+        );
+    }
+    Ok(texture.create_view(&wgpu::TextureViewDescriptor::default()))
+}
+
+fn sampler(gpu: &Gpu, s: Sampler) -> wgpu::Sampler {
+    let wrap = |w| match w {
+        Wrap::Repeat => wgpu::AddressMode::Repeat,
+        Wrap::Mirror => wgpu::AddressMode::MirrorRepeat,
+        Wrap::Clamp => wgpu::AddressMode::ClampToEdge,
+    };
+    let filter = |f| match f {
+        Filter::Nearest => wgpu::FilterMode::Nearest,
+        Filter::Linear => wgpu::FilterMode::Linear,
+    };
+    gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+        label: None,
+        address_mode_u: wrap(s.wrap_u),
+        address_mode_v: wrap(s.wrap_v),
+        mag_filter: filter(s.mag),
+        min_filter: filter(s.min),
+        mipmap_filter: match s.mip {
+            Some(Filter::Linear) => wgpu::MipmapFilterMode::Linear,
+            _ => wgpu::MipmapFilterMode::Nearest,
+        },
+        lod_max_clamp: if s.mip.is_some() { 32.0 } else { 0.0 },
+        ..Default::default()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn colour_mips_average_light_and_masks_average_numbers() {
+        let image = Image { width: 2, height: 1, pixels: vec![0, 0, 0, 0, 255, 255, 255, 255], ..Image::default() };
+        let tables = Tables::new();
+        let srgb = mip_chain(&image, Encoding::Srgb, &tables);
+        assert_eq!(srgb[0].pixels, [188, 188, 188, 128]);
+        let linear = mip_chain(&image, Encoding::Linear, &tables);
+        assert_eq!(linear[0].pixels, [128, 128, 128, 128]);
+    }
+
+    #[test]
+    fn chains_end_at_one_texel_for_any_shape() {
+        for (width, height) in [(1, 1), (1, 7), (5, 3), (64, 2)] {
+            let image = Image { width, height, pixels: vec![200; (width * height * 4) as usize], ..Image::default() };
+            let chain = mip_chain(&image, Encoding::Srgb, &Tables::new());
+            assert_eq!(chain.len() as u32, width.max(height).ilog2());
+            assert!(chain.iter().all(|l| l.pixels.iter().all(|&p| p == 200)), "flat colour stays flat");
+        }
+    }
+}

@@ -1,0 +1,250 @@
+//! Every struct that is shared with WGSL. `tests/layout.rs` compares them with the shaders by reflection.
+
+use bytemuck::{Pod, Zeroable};
+use glam::{Mat4, Vec3};
+
+use crate::{
+    material::{Material, OutlineWidth, Shading, TextureRef, UvTransform},
+    render::View,
+    scene::MAX_PUNCTUAL_LIGHTS,
+};
+
+/// `PunctualLight` of `wgsl/bind/frame.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+pub struct PunctualLightUniform {
+    pub position: [f32; 3],
+    pub range: f32,
+    pub color: [f32; 3],
+    pub spot_scale: f32,
+    pub direction: [f32; 3],
+    pub spot_offset: f32,
+}
+
+/// `Frame` of `wgsl/bind/frame.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+pub struct FrameUniform {
+    pub clip_from_world: [[f32; 4]; 4],
+    pub view_from_world: [[f32; 4]; 4],
+    pub eye: [f32; 3],
+    pub time_s: f32,
+    pub to_light: [f32; 3],
+    pub focal: f32,
+    pub light_color: [f32; 3],
+    pub aspect: f32,
+    pub ambient_sky: [f32; 3],
+    pub punctual_count: u32,
+    pub ambient_ground: [f32; 3],
+    pub near: f32,
+    pub punctual: [PunctualLightUniform; MAX_PUNCTUAL_LIGHTS],
+}
+
+/// `UvTransform` of `wgsl/bind/material.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+pub struct UvTransformUniform {
+    pub row_u: [f32; 4],
+    pub row_v: [f32; 4],
+}
+
+/// `Material` of `wgsl/bind/material.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+pub struct MaterialUniform {
+    pub base_color: [f32; 4],
+    pub shade_color: [f32; 3],
+    pub shift: f32,
+    pub emission: [f32; 3],
+    pub toony: f32,
+    pub rim_color: [f32; 3],
+    pub rim_fresnel_power: f32,
+    pub matcap_color: [f32; 3],
+    pub rim_lift: f32,
+    pub outline_color: [f32; 3],
+    pub outline_width: f32,
+    pub shift_texture_scale: f32,
+    pub gi_equalization: f32,
+    pub rim_lighting_mix: f32,
+    pub outline_lighting_mix: f32,
+    pub scroll_per_s: [f32; 2],
+    pub rotation_rad_per_s: f32,
+    pub alpha_cutoff: f32,
+    pub normal_scale: f32,
+    pub padding: [f32; 3],
+    pub base_uv: UvTransformUniform,
+    pub shade_uv: UvTransformUniform,
+    pub shift_uv: UvTransformUniform,
+    pub normal_uv: UvTransformUniform,
+    pub emission_uv: UvTransformUniform,
+    pub rim_mask_uv: UvTransformUniform,
+    pub outline_mask_uv: UvTransformUniform,
+    pub animation_mask_uv: UvTransformUniform,
+}
+
+/// `DeformVertex` of `wgsl/pass/deform.wgsl`, and the first vertex stream of every draw.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+pub struct DeformVertex {
+    pub position: [f32; 3],
+    pub normal: u32,
+    pub tangent: u32,
+    pub outline_normal: u32,
+}
+
+/// `DeformGroup` of `wgsl/pass/deform.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+pub struct DeformGroup {
+    pub first_vertex: u32,
+    pub first_influence: u32,
+    pub influences_per_vertex: u32,
+    pub first_joint: u32,
+    pub first_weight: u32,
+}
+
+/// `MorphEntry` of `wgsl/pass/deform.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+pub struct MorphEntry {
+    pub target_index: u32,
+    pub position: [f32; 3],
+    pub normal: [f32; 3],
+}
+
+/// Rows of an affine matrix: `Joint` of `wgsl/pass/deform.wgsl`, and the instance stream of every draw.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+pub struct AffineRows {
+    pub row_x: [f32; 4],
+    pub row_y: [f32; 4],
+    pub row_z: [f32; 4],
+}
+
+impl From<Mat4> for AffineRows {
+    fn from(m: Mat4) -> Self {
+        Self { row_x: m.row(0).to_array(), row_y: m.row(1).to_array(), row_z: m.row(2).to_array() }
+    }
+}
+
+/// Second vertex stream of every draw: what does not move.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+pub struct StaticVertex {
+    pub uv: [f32; 4],
+    pub color: [u8; 4],
+    pub part: u32,
+}
+
+impl FrameUniform {
+    /// Uniform of a view.
+    pub fn new(view: &View) -> Self {
+        let aspect = view.size[0] as f32 / view.size[1] as f32;
+        let camera = &view.camera;
+        let view_from_world = camera.view_from_world();
+        let lights = &view.lights;
+        let mut punctual = [PunctualLightUniform::default(); MAX_PUNCTUAL_LIGHTS];
+        for (uniform, light) in punctual.iter_mut().zip(&lights.punctual) {
+            let (direction, spot_scale, spot_offset) = light.spot.map_or((Vec3::Z, 0.0, 1.0), |spot| {
+                // KHR_lights_punctual, "Inner and Outer Cone Angles".
+                let outer_cos = spot.outer_rad.cos();
+                let scale = 1.0 / (spot.inner_rad.cos() - outer_cos).max(1e-3);
+                (spot.direction, scale, -outer_cos * scale)
+            });
+            *uniform = PunctualLightUniform {
+                position: light.position.to_array(),
+                range: light.range,
+                color: light.color.scaled(light.intensity).0,
+                spot_scale,
+                direction: direction.to_array(),
+                spot_offset,
+            };
+        }
+        Self {
+            clip_from_world: (camera.clip_from_view(aspect) * view_from_world).to_cols_array_2d(),
+            view_from_world: view_from_world.to_cols_array_2d(),
+            eye: camera.eye.to_array(),
+            time_s: view.time_s,
+            to_light: lights.directional.to_light.normalize_or(Vec3::Z).to_array(),
+            focal: 1.0 / (camera.fov_y_rad * 0.5).tan(),
+            light_color: lights.directional.color.scaled(lights.directional.intensity).0,
+            aspect,
+            ambient_sky: lights.ambient.sky.0,
+            punctual_count: lights.punctual.len().min(MAX_PUNCTUAL_LIGHTS) as u32,
+            ambient_ground: lights.ambient.ground.0,
+            near: camera.near,
+            punctual,
+        }
+    }
+}
+
+impl UvTransformUniform {
+    fn new(texture: Option<TextureRef>) -> Self {
+        let texture = texture.unwrap_or_default();
+        let UvTransform { offset, rotation_rad, scale } = texture.transform;
+        let (sin, cos) = rotation_rad.sin_cos();
+        // KHR_texture_transform: translation * rotation * scale, v downwards.
+        Self {
+            row_u: [cos * scale[0], sin * scale[1], offset[0], texture.uv_set as f32],
+            row_v: [-sin * scale[0], cos * scale[1], offset[1], 0.0],
+        }
+    }
+}
+
+impl MaterialUniform {
+    /// Uniform of a material.
+    pub fn new(material: &Material) -> Self {
+        let toon = match material.shading {
+            Shading::Toon(toon) => toon,
+            Shading::Unlit => crate::material::Toon::default(),
+        };
+        let outline = material.outline.unwrap_or_default();
+        let cutoff = match material.alpha.mode {
+            crate::material::AlphaMode::Mask => material.alpha.cutoff,
+            _ => 0.5,
+        };
+        Self {
+            base_color: material.base.color,
+            shade_color: toon.shade_color,
+            shift: toon.shift,
+            emission: material.emission.color,
+            toony: toon.toony,
+            rim_color: material.rim.color,
+            rim_fresnel_power: material.rim.fresnel_power,
+            matcap_color: material.matcap.map_or([0.0; 3], |m| m.color),
+            rim_lift: material.rim.lift,
+            outline_color: outline.color,
+            outline_width: match outline.width {
+                OutlineWidth::World { metres } => metres,
+                OutlineWidth::Screen { height_ratio } => height_ratio,
+            },
+            shift_texture_scale: toon.shift_texture_scale,
+            gi_equalization: toon.gi_equalization,
+            rim_lighting_mix: material.rim.lighting_mix,
+            outline_lighting_mix: outline.lighting_mix,
+            scroll_per_s: [material.uv_animation.scroll_u_per_s, material.uv_animation.scroll_v_per_s],
+            rotation_rad_per_s: material.uv_animation.rotation_rad_per_s,
+            alpha_cutoff: cutoff,
+            normal_scale: material.normal_map.map_or(1.0, |n| n.scale),
+            padding: [0.0; 3],
+            base_uv: UvTransformUniform::new(material.base.texture),
+            shade_uv: UvTransformUniform::new(toon.shade_texture),
+            shift_uv: UvTransformUniform::new(toon.shift_texture),
+            normal_uv: UvTransformUniform::new(material.normal_map.map(|n| n.texture)),
+            emission_uv: UvTransformUniform::new(material.emission.texture),
+            rim_mask_uv: UvTransformUniform::new(material.rim.mask),
+            outline_mask_uv: UvTransformUniform::new(outline.width_mask),
+            animation_mask_uv: UvTransformUniform::new(material.uv_animation.mask),
+        }
+    }
+}
+
+/// Octahedral snorm16 pair of a unit vector; the CPU side of `wgsl/lib/normal.wgsl`.
+pub fn pack_unit(v: [f32; 3]) -> u32 {
+    let n = Vec3::from(v).normalize_or(Vec3::Z);
+    let p = n / (n.x.abs() + n.y.abs() + n.z.abs());
+    let sign = |x: f32| if x >= 0.0 { 1.0 } else { -1.0 };
+    let (x, y) = if p.z < 0.0 { ((1.0 - p.y.abs()) * sign(p.x), (1.0 - p.x.abs()) * sign(p.y)) } else { (p.x, p.y) };
+    let quantize = |x: f32| u32::from((x.clamp(-1.0, 1.0) * 32767.0).round() as i16 as u16);
+    quantize(x) | quantize(y) << 16
+}

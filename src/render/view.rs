@@ -1,0 +1,205 @@
+//! What is seen: camera, lights, size, time, channel, instances; and framings of a character.
+
+use glam::{Mat4, Quat, Vec3};
+
+use super::{MAX_TEXTURE_SIDE, Output};
+use crate::{
+    Error, Result,
+    color::Srgb,
+    scene::{Camera, Framing, HumanBone, Image, Lights, Scene},
+};
+
+/// One picture of a scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct View {
+    /// Width and height, pixels. Range 1..8192. Default: 1024 x 1024.
+    pub size: [u32; 2],
+    /// Camera.
+    pub camera: Camera,
+    /// Lights.
+    pub lights: Lights,
+    /// What is behind the scene. Default: transparent.
+    pub background: Background,
+    /// Time of everything that is animated by time alone, seconds. Default: 0.
+    pub time_s: f32,
+    /// What is shown. Default: the shaded picture.
+    pub channel: Channel,
+    /// Transforms `world_from_character`: one character for each. They rotate, move and scale evenly. Default: one at
+    /// the origin.
+    pub instances: Vec<Mat4>,
+}
+
+impl Default for View {
+    fn default() -> Self {
+        Self {
+            size: [1024, 1024],
+            camera: Camera::default(),
+            lights: Lights::default(),
+            background: Background::default(),
+            time_s: 0.0,
+            channel: Channel::default(),
+            instances: vec![Mat4::IDENTITY],
+        }
+    }
+}
+
+/// What is behind the scene.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Background {
+    /// Nothing: the picture has alpha.
+    #[default]
+    Transparent,
+    /// A colour.
+    Color(Srgb),
+}
+
+impl Background {
+    pub(crate) fn clear_color(self, output: Output) -> wgpu::Color {
+        let Self::Color(srgb) = self else { return wgpu::Color::TRANSPARENT };
+        let [r, g, b] = if output.format.is_srgb() {
+            srgb.to_linear().0.map(f64::from)
+        } else {
+            srgb.0.map(|c| f64::from(c) / 255.0)
+        };
+        wgpu::Color { r, g, b, a: 1.0 }
+    }
+}
+
+/// What a [`View`] shows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Channel {
+    /// The shaded picture.
+    #[default]
+    Final,
+    /// View-space normals, -1..1 as 0..255.
+    Normal,
+    /// Distance from the camera: white at the nearest visible point, dark at the farthest, transparent background.
+    Depth,
+    /// Part index + 1 in red (low byte) and green (high byte), 0 in the background. Parts are the primitives of the
+    /// scene in the order of nodes.
+    PartId,
+}
+
+impl Channel {
+    /// Turns read-back texels of the prepass into a picture.
+    pub(crate) fn picture(self, view: &View, texels: Vec<u8>) -> Image {
+        let word = |t: &[u8]| u32::from_le_bytes([t[0], t[1], t[2], t[3]]);
+        let pixels = match self {
+            Self::Final | Self::Normal => texels,
+            Self::PartId => texels
+                .chunks_exact(4)
+                .flat_map(|t| {
+                    let [low, high, ..] = word(t).to_le_bytes();
+                    [low, high, 0, 255]
+                })
+                .collect(),
+            Self::Depth => {
+                // Depth is near / distance.
+                let distance = |t: &[u8]| view.camera.near / f32::from_bits(word(t));
+                let finite = || texels.chunks_exact(4).map(distance).filter(|d| d.is_finite());
+                let (near, far) = finite().fold((f32::MAX, 0f32), |(low, high), d| (low.min(d), high.max(d)));
+                let span = (far - near).max(1e-6);
+                texels
+                    .chunks_exact(4)
+                    .flat_map(|t| {
+                        let d = distance(t);
+                        let grey = (255.0 - 215.0 * ((d - near) / span)).clamp(0.0, 255.0).round() as u8;
+                        if d.is_finite() { [grey, grey, grey, 255] } else { [0; 4] }
+                    })
+                    .collect()
+            }
+        };
+        Image { width: view.size[0], height: view.size[1], pixels, format: "png", source_bits: 8, ..Image::default() }
+    }
+}
+
+impl View {
+    /// A view of a character: `yaw_rad` moves the camera around it, positive towards the character's left (+X).
+    ///
+    /// Heads come from the humanoid bones; a model without them is framed by its bounding box.
+    #[must_use]
+    pub fn framed(scene: &Scene, framing: Framing, yaw_rad: f32, size: [u32; 2]) -> Self {
+        let (low, high) = bounds(scene);
+        let world = scene.rest_world_from_nodes();
+        let head = scene.bone_node(HumanBone::Head).and_then(|n| world.get(n)).map(|m| m.w_axis.truncate());
+        let top = high.y;
+        let height = (high.y - low.y).max(1e-3);
+        let head_y = head.map_or(low.y + height * 0.82, |h| h.y);
+        // The head bone is at the base of the skull; from there to the top of the hair is about a head.
+        let head_height = (top - head_y).clamp(height * 0.05, height * 0.5);
+        let head_center = Vec3::new(
+            head.map_or((low.x + high.x) * 0.5, |h| h.x),
+            head_y + head_height * 0.45,
+            head.map_or((low.z + high.z) * 0.5, |h| h.z),
+        );
+        let aspect = size[0] as f32 / size[1].max(1) as f32;
+        let (target, visible_height, visible_width) = match framing {
+            Framing::Face => (head_center, head_height * 1.15, head_height * 1.15),
+            Framing::Portrait => (head_center - Vec3::Y * head_height * 0.2, head_height * 2.0, head_height * 2.0),
+            Framing::Bust => (head_center - Vec3::Y * head_height * 0.9, head_height * 3.3, head_height * 2.6),
+            Framing::Full => {
+                let turned = Quat::from_rotation_y(yaw_rad) * Vec3::X;
+                let width = (high.x - low.x) * turned.x.abs() + (high.z - low.z) * turned.z.abs();
+                ((low + high) * 0.5, height * 1.08, width * 1.08)
+            }
+        };
+        let camera = Camera { target, ..Camera::default() };
+        let tan = (camera.fov_y_rad * 0.5).tan();
+        let distance = (visible_height * 0.5 / tan).max(visible_width * 0.5 / (tan * aspect));
+        // The nearest part of the head stands in front of its middle.
+        let distance = distance + if framing == Framing::Full { (high.z - low.z) * 0.5 } else { head_height * 0.5 };
+        let eye = target + Quat::from_rotation_y(yaw_rad) * Vec3::Z * distance;
+        let near = (distance * 0.05).clamp(1e-4, 0.1);
+        Self { size, camera: Camera { eye, near, ..camera }, ..Self::default() }
+    }
+
+    /// Refuses what no picture can be made of.
+    pub(crate) fn check(&self) -> Result<()> {
+        let fault = |what: &str, message: String| Err(Error::Argument { what: what.to_owned(), message });
+        if self.size.iter().any(|&s| s == 0 || s > MAX_TEXTURE_SIDE) {
+            return fault("size", format!("is {}x{}; expected 1 to {MAX_TEXTURE_SIDE} a side", self.size[0], self.size[1]));
+        }
+        let camera = &self.camera;
+        if !(camera.fov_y_rad > 0.0 && camera.fov_y_rad < std::f32::consts::PI) {
+            return fault("field of view", format!("is {} rad; expected above 0, below pi", camera.fov_y_rad));
+        }
+        if !(camera.near > 0.0 && camera.near.is_finite()) {
+            return fault("near plane", format!("is {} m; expected above 0", camera.near));
+        }
+        let forward = camera.target - camera.eye;
+        if !forward.is_finite() || !camera.eye.is_finite() || !(forward.cross(camera.up).length_squared() > 0.0) {
+            return fault("camera", "eye, target and up must be finite and span a plane".to_owned());
+        }
+        if self.instances.is_empty() {
+            return fault("instances", "is empty; expected at least one transform".to_owned());
+        }
+        Ok(())
+    }
+}
+
+/// Bounding box at rest, world space.
+fn bounds(scene: &Scene) -> (Vec3, Vec3) {
+    let world = scene.rest_world_from_nodes();
+    let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+    for (node, mesh) in scene.mesh_nodes() {
+        let skin = scene.nodes[node].skin.and_then(|s| scene.skins.get(s));
+        for primitive in &mesh.primitives {
+            let per_vertex = primitive.influences.per_vertex;
+            for (v, position) in primitive.positions.iter().enumerate() {
+                let matrix = match skin {
+                    // The heaviest influence is enough for a box.
+                    Some(skin) if per_vertex > 0 => {
+                        let joint = primitive.influences.joints.get(v * per_vertex).map_or(0, |j| usize::from(*j));
+                        let node = skin.joints.get(joint).and_then(|n| world.get(*n)).copied().unwrap_or_default();
+                        node * skin.joint_from_mesh.get(joint).copied().unwrap_or_default()
+                    }
+                    _ => world[node],
+                };
+                let p = matrix.transform_point3(Vec3::from(*position));
+                (low, high) = (low.min(p), high.max(p));
+            }
+        }
+    }
+    if low.is_finite() && high.is_finite() && low.x <= high.x { (low, high) } else { (Vec3::NEG_ONE, Vec3::ONE) }
+}

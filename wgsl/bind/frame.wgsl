@@ -1,0 +1,35 @@
+// Group 0: what changes once a frame.
+
+struct PunctualLight {
+    position: vec3f,
+    // Metres; 0 for none.
+    range: f32,
+    // Linear, times intensity.
+    color: vec3f,
+    spot_scale: f32,
+    // Unit, in which the light shines.
+    direction: vec3f,
+    spot_offset: f32,
+}
+
+struct Frame {
+    clip_from_world: mat4x4f,
+    view_from_world: mat4x4f,
+    eye: vec3f,
+    time_s: f32,
+    // Unit, from the surface to the light.
+    to_light: vec3f,
+    // 1 / tan(fov_y / 2).
+    focal: f32,
+    // Linear, times intensity.
+    light_color: vec3f,
+    // Width over height.
+    aspect: f32,
+    ambient_sky: vec3f,
+    punctual_count: u32,
+    ambient_ground: vec3f,
+    near: f32,
+    punctual: array<PunctualLight, 4>,
+}
+
+@group(0) @binding(0) var<uniform> frame: Frame;

@@ -1,0 +1,58 @@
+// Group 2: one material, its numbers, its textures.
+
+// Affine UV transform: uv' = (dot(row_u, (uv, 1)), dot(row_v, (uv, 1))); w of row_u is the UV set, 0 or 1.
+struct UvTransform {
+    row_u: vec4f,
+    row_v: vec4f,
+}
+
+struct Material {
+    base_color: vec4f,
+    shade_color: vec3f,
+    shift: f32,
+    emission: vec3f,
+    toony: f32,
+    rim_color: vec3f,
+    rim_fresnel_power: f32,
+    matcap_color: vec3f,
+    rim_lift: f32,
+    outline_color: vec3f,
+    // Metres, or share of the picture's height.
+    outline_width: f32,
+    shift_texture_scale: f32,
+    gi_equalization: f32,
+    rim_lighting_mix: f32,
+    outline_lighting_mix: f32,
+    scroll_per_s: vec2f,
+    rotation_rad_per_s: f32,
+    alpha_cutoff: f32,
+    normal_scale: f32,
+    base_uv: UvTransform,
+    shade_uv: UvTransform,
+    shift_uv: UvTransform,
+    normal_uv: UvTransform,
+    emission_uv: UvTransform,
+    rim_mask_uv: UvTransform,
+    outline_mask_uv: UvTransform,
+    animation_mask_uv: UvTransform,
+}
+
+@group(2) @binding(0) var<uniform> material: Material;
+@group(2) @binding(1) var base_texture: texture_2d<f32>;
+@group(2) @binding(2) var base_sampler: sampler;
+@group(2) @binding(3) var shade_texture: texture_2d<f32>;
+@group(2) @binding(4) var shade_sampler: sampler;
+@group(2) @binding(5) var shift_texture: texture_2d<f32>;
+@group(2) @binding(6) var shift_sampler: sampler;
+@group(2) @binding(7) var normal_texture: texture_2d<f32>;
+@group(2) @binding(8) var normal_sampler: sampler;
+@group(2) @binding(9) var emission_texture: texture_2d<f32>;
+@group(2) @binding(10) var emission_sampler: sampler;
+@group(2) @binding(11) var matcap_texture: texture_2d<f32>;
+@group(2) @binding(12) var matcap_sampler: sampler;
+@group(2) @binding(13) var rim_mask_texture: texture_2d<f32>;
+@group(2) @binding(14) var rim_mask_sampler: sampler;
+@group(2) @binding(15) var outline_mask_texture: texture_2d<f32>;
+@group(2) @binding(16) var outline_mask_sampler: sampler;
+@group(2) @binding(17) var animation_mask_texture: texture_2d<f32>;
+@group(2) @binding(18) var animation_mask_sampler: sampler;

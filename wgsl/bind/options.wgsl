@@ -1,0 +1,24 @@
+// What a pipeline includes: constants set at its creation. `surface_options` is the only reader.
+import package::bind::surface::SurfaceOptions;
+
+override UNLIT: bool = false;
+override BASE_TEXTURE: bool = false;
+override SHADE_TEXTURE: bool = false;
+override SHIFT_TEXTURE: bool = false;
+override NORMAL_MAP: bool = false;
+override EMISSION_TEXTURE: bool = false;
+override MATCAP: bool = false;
+override RIM: bool = false;
+override RIM_MASK: bool = false;
+override UV_TRANSFORMS: bool = false;
+override UV_ANIMATION: bool = false;
+override UV_ANIMATION_MASK: bool = false;
+override VERTEX_COLOR: bool = false;
+override ALPHA_MASK: bool = false;
+
+fn surface_options() -> SurfaceOptions {
+    return SurfaceOptions(
+        UNLIT, BASE_TEXTURE, SHADE_TEXTURE, SHIFT_TEXTURE, NORMAL_MAP, EMISSION_TEXTURE, MATCAP, RIM, RIM_MASK,
+        UV_TRANSFORMS, UV_ANIMATION, UV_ANIMATION_MASK, VERTEX_COLOR, ALPHA_MASK
+    );
+}

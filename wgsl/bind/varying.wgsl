@@ -1,0 +1,31 @@
+// What goes from vertex to fragment for a surface.
+import package::bind::frame::frame;
+import package::bind::surface::SurfaceInput;
+import package::bind::vertex::{VertexInput, bitangent_sign, world_direction, world_position};
+
+struct Varying {
+    @builtin(position) clip_position: vec4f,
+    @location(0) world_position: vec3f,
+    @location(1) normal: vec3f,
+    @location(2) tangent: vec4f,
+    @location(3) uv: vec4f,
+    @location(4) color: vec4f,
+}
+
+fn surface_varying(v: VertexInput) -> Varying {
+    let position = world_position(v, v.position);
+    return Varying(
+        frame.clip_from_world * vec4f(position, 1.0),
+        position,
+        world_direction(v, v.frame.x),
+        vec4f(world_direction(v, v.frame.y), bitangent_sign(v.frame.y)),
+        v.uv,
+        v.color,
+    );
+}
+
+// A back face is seen with its normal turned (glTF doubleSided).
+fn surface_input(in: Varying, front_facing: bool) -> SurfaceInput {
+    let normal = select(-in.normal, in.normal, front_facing);
+    return SurfaceInput(in.world_position, normal, in.tangent, in.uv, in.color);
+}

@@ -1,0 +1,29 @@
+// Punctual lights and their accumulation: all lights are summed first and the toon band is cut once.
+
+// Luminance of linear sRGB primaries (Rec. 709).
+fn luminance(color: vec3f) -> f32 {
+    return dot(color, vec3f(0.2126, 0.7152, 0.0722));
+}
+
+// Attenuation of KHR_lights_punctual: inverse square, windowed to zero at `range` (0: no window). Distances in
+// metres. 1e-4 m² keeps the value finite at the light itself.
+fn distance_attenuation(distance_sq: f32, range: f32) -> f32 {
+    let inverse_square = 1.0 / max(distance_sq, 1e-4);
+    if range <= 0.0 {
+        return inverse_square;
+    }
+    let ratio_sq = distance_sq / (range * range);
+    let window = saturate(1.0 - ratio_sq * ratio_sq);
+    return inverse_square * window;
+}
+
+// Spot cone of KHR_lights_punctual: (cos_angle * scale + offset)², clamped; scale 0 and offset 1 for a point light.
+fn spot_attenuation(cos_angle: f32, scale: f32, offset: f32) -> f32 {
+    let x = saturate(cos_angle * scale + offset);
+    return x * x;
+}
+
+// Mean of the lights' n.l, weighted by luminance: for a single light its own n.l. 1e-6 guards total darkness.
+fn accumulated_n_dot_l(weighted_sum: f32, weight: f32) -> f32 {
+    return weighted_sum / max(weight, 1e-6);
+}

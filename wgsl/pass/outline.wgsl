@@ -1,0 +1,61 @@
+// Outlines: back faces pushed outwards along smoothed normals.
+import package::bind::frame::frame;
+import package::bind::material::{material, outline_mask_texture, outline_mask_sampler};
+import package::bind::options::surface_options;
+import package::bind::surface::{SurfaceInput, animated_uv, shade_surface, texture_uv};
+import package::bind::varying::{Varying, surface_varying, surface_input};
+import package::bind::vertex::{VertexInput, world_direction, world_position};
+import package::lib::color::srgb_from_linear;
+import package::lib::mtoon::mtoon_outline;
+import package::lib::normal::normalize_or;
+
+override ENCODE_SRGB: bool = false;
+// The width is a share of the picture's height instead of metres.
+override SCREEN_WIDTH: bool = false;
+override WIDTH_MASK: bool = false;
+// The surface's shading is needed: for its colour, its alpha or its cut-outs.
+override OUTLINE_SHADED: bool = false;
+// Blended with what is behind it.
+override OUTLINE_BLEND: bool = false;
+
+@vertex
+fn vs_main(v: VertexInput) -> Varying {
+    var out = surface_varying(v);
+    var width = material.outline_width;
+    if WIDTH_MASK {
+        width *= textureSampleLevel(
+            outline_mask_texture, outline_mask_sampler,
+            texture_uv(surface_options(), v.uv, material.outline_mask_uv), 0.0
+        ).g;
+    }
+    let normal = world_direction(v, v.frame.z);
+    if SCREEN_WIDTH {
+        // In pixels the direction is that of the view-space normal, whatever the aspect.
+        let normal_view = (frame.view_from_world * vec4f(normal, 0.0)).xyz;
+        let direction = normalize_or(vec3f(normal_view.xy, 0.0), vec3f(0.0)).xy;
+        let offset = direction * width * 2.0 * out.clip_position.w;
+        out.clip_position += vec4f(offset.x / frame.aspect, offset.y, 0.0, 0.0);
+    } else {
+        let position = out.world_position + normal * width;
+        out.clip_position = frame.clip_from_world * vec4f(position, 1.0);
+    }
+    // 1e-5 of the distance behind the surface, so that a hull of width 0 stays hidden (depth is near / distance).
+    out.clip_position.z *= 1.0 - 1e-5;
+    return out;
+}
+
+@fragment
+fn fs_main(in: Varying) -> @location(0) vec4f {
+    var surface = vec4f(1.0);
+    if OUTLINE_SHADED {
+        surface = shade_surface(surface_options(), surface_input(in, true));
+    }
+    var color = mtoon_outline(material.outline_color, surface.rgb, material.outline_lighting_mix);
+    if ENCODE_SRGB {
+        color = srgb_from_linear(color);
+    }
+    if OUTLINE_BLEND {
+        return vec4f(color * surface.a, surface.a);
+    }
+    return vec4f(color, 1.0);
+}
