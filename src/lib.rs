@@ -1,4 +1,5 @@
 //! Stylized (NPR) shading of anime characters on wgpu.
+pub mod bench;
 pub mod color;
 mod error;
 pub mod gpu;

@@ -307,3 +307,8 @@ impl Layouts {
         Self { frame, material, surface }
     }
 }
+
+/// A target that a frame of `size` can be drawn into and read back from.
+pub(crate) fn color_target(gpu: &Gpu, size: [u32; 2], output: Output) -> wgpu::TextureView {
+    targets::view(&targets::target(gpu, "target", size, 1, output.format, true))
+}

@@ -7,7 +7,7 @@ import package::bind::varying::{Varying, surface_varying, surface_input};
 import package::bind::vertex::{VertexInput, world_direction, world_position};
 import package::lib::color::srgb_from_linear;
 import package::lib::mtoon::mtoon_outline;
-import package::lib::normal::normalize_or;
+import package::lib::outline::outline_clip;
 
 override ENCODE_SRGB: bool = false;
 // The width is a share of the picture's height instead of metres.
@@ -30,11 +30,8 @@ fn vs_main(v: VertexInput) -> Varying {
     }
     let normal = world_direction(v, v.frame.z);
     if SCREEN_WIDTH {
-        // In pixels the direction is that of the view-space normal, whatever the aspect.
-        let normal_view = (frame.view_from_world * vec4f(normal, 0.0)).xyz;
-        let direction = normalize_or(vec3f(normal_view.xy, 0.0), vec3f(0.0)).xy;
-        let offset = direction * width * 2.0 * out.clip_position.w;
-        out.clip_position += vec4f(offset.x / frame.aspect, offset.y, 0.0, 0.0);
+        let normal_clip = (frame.clip_from_world * vec4f(normal, 0.0)).xy;
+        out.clip_position = outline_clip(out.clip_position, normal_clip, width, frame.aspect);
     } else {
         let position = out.world_position + normal * width;
         out.clip_position = frame.clip_from_world * vec4f(position, 1.0);

@@ -1,0 +1,85 @@
+//! Structs shared with WGSL have the same members at the same offsets on both sides.
+
+use std::mem::{offset_of, size_of};
+
+use hikage::render::uniforms::{
+    AffineRows, DeformGroup, DeformVertex, FrameUniform, MaterialUniform, MorphEntry, PunctualLightUniform,
+    UvTransformUniform,
+};
+
+struct Layout {
+    entry: &'static str,
+    name: &'static str,
+    size: usize,
+    members: Vec<(&'static str, usize)>,
+}
+
+macro_rules! layout {
+    ($entry:literal, $wgsl:literal, $rust:ty { $($member:ident),+ $(,)? }) => {
+        Layout {
+            entry: $entry,
+            name: $wgsl,
+            size: size_of::<$rust>(),
+            members: vec![$((stringify!($member), offset_of!($rust, $member))),+],
+        }
+    };
+}
+
+#[test]
+fn structs_match_their_wgsl() {
+    let layouts = [
+        layout!("opaque", "PunctualLight", PunctualLightUniform {
+            position, range, color, spot_scale, direction, spot_offset,
+        }),
+        layout!("opaque", "Frame", FrameUniform {
+            clip_from_world, view_from_world, eye, time_s, to_light, focal, light_color, aspect, ambient_sky,
+            punctual_count, ambient_ground, near, punctual,
+        }),
+        layout!("opaque", "UvTransform", UvTransformUniform { row_u, row_v }),
+        layout!("opaque", "Material", MaterialUniform {
+            base_color, shade_color, shift, emission, toony, rim_color, rim_fresnel_power, matcap_color, rim_lift,
+            outline_color, outline_width, shift_texture_scale, gi_equalization, rim_lighting_mix, outline_lighting_mix,
+            scroll_per_s, rotation_rad_per_s, alpha_cutoff, normal_scale, base_uv, shade_uv, shift_uv, normal_uv,
+            emission_uv, rim_mask_uv, outline_mask_uv, animation_mask_uv,
+        }),
+        layout!("deform", "DeformGroup", DeformGroup {
+            first_vertex, first_influence, influences_per_vertex, first_joint, first_weight,
+        }),
+        layout!("deform", "Joint", AffineRows { row_x, row_y, row_z }),
+    ];
+    for layout in layouts {
+        let (members, size) = reflect(layout.entry, layout.name);
+        assert_eq!(members, layout.members, "{}", layout.name);
+        assert_eq!(size, layout.size, "size of {}", layout.name);
+    }
+    // Vectors of the CPU are single numbers in these, because WGSL would align them to 16 bytes.
+    let (members, size) = reflect("deform", "DeformVertex");
+    assert_eq!(size, size_of::<DeformVertex>());
+    assert_eq!(offset(&members, "x"), offset_of!(DeformVertex, position));
+    assert_eq!(offset(&members, "normal"), offset_of!(DeformVertex, normal));
+    assert_eq!(offset(&members, "tangent"), offset_of!(DeformVertex, tangent));
+    assert_eq!(offset(&members, "outline_normal"), offset_of!(DeformVertex, outline_normal));
+    let (members, size) = reflect("deform", "MorphEntry");
+    assert_eq!(size, size_of::<MorphEntry>());
+    assert_eq!(offset(&members, "target_index"), offset_of!(MorphEntry, target_index));
+    assert_eq!(offset(&members, "dx"), offset_of!(MorphEntry, position));
+    assert_eq!(offset(&members, "nx"), offset_of!(MorphEntry, normal));
+}
+
+fn offset(members: &[(&'static str, usize)], name: &str) -> usize {
+    members.iter().find(|(n, _)| *n == name).unwrap_or_else(|| panic!("no member {name}")).1
+}
+
+/// Members with offsets, and the size, of a struct of an entry's linked text.
+fn reflect(entry: &str, name: &str) -> (Vec<(&'static str, usize)>, usize) {
+    let (_, text) = hikage::shaders::ENTRIES.iter().find(|(stem, _)| *stem == entry).expect("an entry of that name");
+    let module = naga::front::wgsl::parse_str(text).expect("valid WGSL");
+    let found = module.types.iter().find(|(_, t)| t.name.as_deref() == Some(name));
+    let (_, ty) = found.unwrap_or_else(|| panic!("{entry} has no struct {name}"));
+    let naga::TypeInner::Struct { members, span } = &ty.inner else { panic!("{name} is no struct") };
+    let list = members
+        .iter()
+        .map(|m| (&*Box::leak(m.name.clone().unwrap_or_default().into_boxed_str()), m.offset as usize))
+        .collect();
+    (list, *span as usize)
+}

@@ -1,0 +1,230 @@
+//! The functions of `wgsl/lib` on the adapter against float64 vectors.
+//!
+//! Vectors are read from `tests/oracles`, or from the folder that `HIKAGE_ORACLES` names.
+
+use std::path::PathBuf;
+
+use serde_json::Value;
+use wgpu::util::DeviceExt;
+
+/// Runs `body`, which may read `input[base + k]` and must write `output[out + k]`, once for each row of numbers.
+fn run(library: &[&str], body: &str, rows: &[Vec<f32>], outputs: usize) -> Vec<Vec<f32>> {
+    let gpu = hikage::Gpu::headless(None).unwrap_or_else(|e| panic!("{e}"));
+    let stride = rows[0].len();
+    assert!(rows.iter().all(|r| r.len() == stride));
+    let mut text = String::new();
+    for file in library {
+        let path = format!("{}/wgsl/lib/{file}.wgsl", env!("CARGO_MANIFEST_DIR"));
+        let source = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{path}: {e}"));
+        // Library functions have unique names, so their files may simply stand behind each other.
+        text.extend(source.lines().filter(|l| !l.starts_with("import ")).flat_map(|l| [l, "\n"]));
+    }
+    text += &format!(
+        "@group(0) @binding(0) var<storage, read> input: array<f32>;
+         @group(0) @binding(1) var<storage, read_write> output: array<f32>;
+         fn input3(i: u32) -> vec3f {{ return vec3f(input[i], input[i + 1u], input[i + 2u]); }}
+         fn write3(i: u32, v: vec3f) {{ output[i] = v.x; output[i + 1u] = v.y; output[i + 2u] = v.z; }}
+         @compute @workgroup_size(1) fn main(@builtin(workgroup_id) id: vec3u) {{
+             let base = id.x * {stride}u;
+             let out = id.x * {outputs}u;
+             {body}
+         }}"
+    );
+    let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: None,
+        source: wgpu::ShaderSource::Wgsl(text.into()),
+    });
+    let pipeline = gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+        label: None,
+        layout: None,
+        module: &module,
+        entry_point: Some("main"),
+        compilation_options: wgpu::PipelineCompilationOptions::default(),
+        cache: None,
+    });
+    let flat: Vec<f32> = rows.concat();
+    let input = gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+        label: None,
+        contents: bytemuck::cast_slice(&flat),
+        usage: wgpu::BufferUsages::STORAGE,
+    });
+    let bytes = (rows.len() * outputs * 4) as u64;
+    let buffer = |usage| {
+        gpu.device.create_buffer(&wgpu::BufferDescriptor { label: None, size: bytes, usage, mapped_at_creation: false })
+    };
+    let output = buffer(wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC);
+    let read = buffer(wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ);
+    let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: None,
+        layout: &pipeline.get_bind_group_layout(0),
+        entries: &[
+            wgpu::BindGroupEntry { binding: 0, resource: input.as_entire_binding() },
+            wgpu::BindGroupEntry { binding: 1, resource: output.as_entire_binding() },
+        ],
+    });
+    let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+    {
+        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+        pass.set_pipeline(&pipeline);
+        pass.set_bind_group(0, &group, &[]);
+        pass.dispatch_workgroups(rows.len() as u32, 1, 1);
+    }
+    encoder.copy_buffer_to_buffer(&output, 0, &read, 0, bytes);
+    gpu.queue.submit([encoder.finish()]);
+    read.slice(..).map_async(wgpu::MapMode::Read, |r| r.expect("mapped"));
+    let timeout = Some(std::time::Duration::from_secs(60));
+    gpu.device.poll(wgpu::PollType::Wait { submission_index: None, timeout }).expect("the adapter answers");
+    let mapped = read.slice(..).get_mapped_range().expect("mapped");
+    bytemuck::pod_collect_to_vec::<u8, f32>(&mapped).chunks_exact(outputs).map(<[f32]>::to_vec).collect()
+}
+
+fn vectors(name: &str) -> Value {
+    let own = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/oracles");
+    let folder = std::env::var_os("HIKAGE_ORACLES").map_or(own, PathBuf::from);
+    let path = folder.join(name);
+    let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+    serde_json::from_str(&text).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
+}
+
+fn cases<'a>(file: &'a Value, list: &str) -> &'a Vec<Value> {
+    let cases = file[list].as_array().unwrap_or_else(|| panic!("no list {list}"));
+    assert!(!cases.is_empty(), "{list} is empty");
+    cases
+}
+
+/// Numbers at the given paths (`params.base`), vectors laid out one component after the other.
+fn numbers(case: &Value, paths: &[&str]) -> Vec<f32> {
+    let mut row = Vec::new();
+    for path in paths {
+        let value = path.split('.').fold(case, |v, key| &v[key]);
+        match value {
+            Value::Array(list) => row.extend(list.iter().map(|x| x.as_f64().expect(path) as f32)),
+            other => row.push(other.as_f64().unwrap_or_else(|| panic!("no number at {path}")) as f32),
+        }
+    }
+    row
+}
+
+fn assert_close(what: &str, case: usize, found: &[f32], expected: &[f32], tolerance: f32) {
+    assert_eq!(found.len(), expected.len());
+    for (i, (f, e)) in found.iter().zip(expected).enumerate() {
+        assert!((f - e).abs() <= tolerance, "{what}, case {case}, number {i}: {f}, expected {e} ± {tolerance}");
+    }
+}
+
+#[test]
+fn mtoon_shading_gi_matcap_and_rim() {
+    let file = vectors("mtoon.json");
+    let list = cases(&file, "cases");
+    let p = |s: &str| format!("params.{s}");
+    let names = [
+        "base", "shade", "light", "shading_shift", "shift_tex", "shift_tex_scale", "toony", "gi_n", "gi_up", "gi_down",
+        "gi_equalization", "matcap_factor", "matcap_texel", "rim_color", "rim_lift", "rim_power", "rim_mask",
+        "rim_lighting_mix",
+    ]
+    .map(p);
+    let paths: Vec<&str> = ["N", "L", "V"].into_iter().chain(names.iter().map(String::as_str)).collect();
+    let rows: Vec<Vec<f32>> = list.iter().map(|c| numbers(c, &paths)).collect();
+    let body = "
+        let n = input3(base); let l = input3(base + 3u); let v = input3(base + 6u);
+        let lit = input3(base + 9u); let shade = input3(base + 12u); let light = input3(base + 15u);
+        let shift = input[base + 18u] + input[base + 19u] * input[base + 20u];
+        let shading = mtoon_shading(dot(n, l), shift, input[base + 21u]);
+        let direct = mtoon_direct(lit, shade, shading, light);
+        let gi = mtoon_gi(input3(base + 22u), input3(base + 25u), input3(base + 28u), input[base + 31u]);
+        let uv = mtoon_matcap_uv(n, v);
+        let matcap = input3(base + 32u) * input3(base + 35u);
+        let parametric = mtoon_parametric_rim(dot(n, v), input[base + 41u], input[base + 42u]);
+        let rim = mtoon_rim(matcap, parametric * input3(base + 38u), input3(base + 43u), light + gi, input[base + 46u]);
+        output[out] = shading;
+        write3(out + 1u, direct);
+        write3(out + 4u, gi);
+        output[out + 7u] = uv.x; output[out + 8u] = uv.y;
+        output[out + 9u] = parametric;
+        write3(out + 10u, rim);
+        write3(out + 13u, direct + gi * lit + rim);";
+    let found = run(&["mtoon"], body, &rows, 16);
+    let expected = ["shading", "direct", "gi", "matcap_uv", "parametric_rim", "rim", "color"];
+    for (i, (case, found)) in list.iter().zip(&found).enumerate() {
+        // Inside the ramp of toony 0.999 a rounding error of N.L is magnified 500 times.
+        let tolerance = 2e-3;
+        assert_close("mtoon", i, found, &numbers(&case["expect"], &expected), tolerance);
+    }
+}
+
+#[test]
+fn mtoon_ramp() {
+    let file = vectors("mtoon.json");
+    let list = cases(&file, "ramp");
+    let rows: Vec<Vec<f32>> = list.iter().map(|c| numbers(c, &["NoL", "shift", "toony"])).collect();
+    let found = run(&["mtoon"], "output[out] = mtoon_shading(input[base], input[base + 1u], input[base + 2u]);", &rows, 1);
+    for (i, (case, found)) in list.iter().zip(&found).enumerate() {
+        assert_close("ramp", i, found, &numbers(case, &["shading"]), 2e-5);
+    }
+}
+
+#[test]
+fn mtoon_uv_animation() {
+    let file = vectors("mtoon.json");
+    let list = cases(&file, "uv_animation");
+    let paths = ["uv", "scroll_x", "scroll_y", "rotation", "mask"];
+    let rows: Vec<Vec<f32>> = list.iter().map(|c| numbers(c, &paths)).collect();
+    let body = "
+        let uv = mtoon_animate_uv(vec2f(input[base], input[base + 1u]), vec2f(input[base + 2u], input[base + 3u]),
+            input[base + 4u], input[base + 5u]);
+        output[out] = uv.x; output[out + 1u] = uv.y;";
+    let found = run(&["mtoon"], body, &rows, 2);
+    for (i, (case, found)) in list.iter().zip(&found).enumerate() {
+        assert_close("uv animation", i, found, &numbers(case, &["uv_out"]), 2e-3);
+    }
+}
+
+#[test]
+fn outline_moves_by_pixels() {
+    let file = vectors("stylized.json");
+    let list = cases(&file, "outline");
+    let rows: Vec<Vec<f32>> = list.iter().map(|c| numbers(c, &["clip", "n_clip", "px", "width", "height"])).collect();
+    let body = "
+        let clip = vec4f(input3(base), input[base + 3u]);
+        let size = vec2f(input[base + 7u], input[base + 8u]);
+        let moved = outline_clip(clip, vec2f(input[base + 4u], input[base + 5u]), input[base + 6u] / size.y, size.x / size.y);
+        write3(out, moved.xyz); output[out + 3u] = moved.w;";
+    let found = run(&["normal", "outline"], body, &rows, 4);
+    for (i, (case, found)) in list.iter().zip(&found).enumerate() {
+        assert_close("outline", i, found, &numbers(case, &["clip_out"]), 1e-3);
+    }
+}
+
+#[test]
+fn octahedral_pairs_keep_unit_vectors() {
+    let mut rows = Vec::new();
+    for i in 0..500 {
+        let t = i as f32 * 2.399_963; // golden angle
+        let z = 1.0 - (2 * i + 1) as f32 / 500.0;
+        let r = (1.0 - z * z).sqrt();
+        rows.push(vec![r * t.cos(), r * t.sin(), z]);
+    }
+    rows.extend([[0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [0.0, -1.0, 0.0]].map(|v| v.to_vec()));
+    let body = "write3(out, unit_from_octahedral(unpack2x16snorm(pack2x16snorm(octahedral_from_unit(input3(base))))));";
+    for (i, (row, found)) in rows.iter().zip(run(&["normal"], body, &rows, 3)).enumerate() {
+        assert_close("octahedral", i, &found, row, 1e-4);
+    }
+}
+
+#[test]
+fn punctual_light_attenuation() {
+    // Distance², range, cos, spot scale, spot offset -> inverse square inside a window, and the cone.
+    let rows = vec![
+        vec![1.0, 0.0, 1.0, 0.0, 1.0],
+        vec![4.0, 0.0, 0.3, 0.0, 1.0],
+        vec![4.0, 2.0, 0.5, 2.0, -1.0],
+        vec![1.0, 2.0, 0.75, 2.0, -1.0],
+    ];
+    let body = "output[out] = distance_attenuation(input[base], input[base + 1u]);
+        output[out + 1u] = spot_attenuation(input[base + 2u], input[base + 3u], input[base + 4u]);";
+    let found = run(&["light"], body, &rows, 2);
+    let expected = [[1.0, 1.0], [0.25, 1.0], [0.0, 0.0], [15.0 / 16.0, 0.25]];
+    for (i, (found, expected)) in found.iter().zip(&expected).enumerate() {
+        assert_close("attenuation", i, found, expected, 1e-5);
+    }
+}
