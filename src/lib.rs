@@ -7,9 +7,7 @@ pub mod material;
 pub mod motion;
 pub mod render;
 pub mod scene;
-pub mod import {
-    //! stub
-}
+pub mod import;
 pub use error::{Error, Result};
 pub use gpu::{AdapterInfo, Gpu};
 pub use render::{Background, Channel, GpuMemory, GpuScene, Output, Renderer, View, shaders};
