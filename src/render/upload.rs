@@ -8,7 +8,7 @@ use wgpu::util::DeviceExt;
 use super::{
     Renderer,
     draw_list::Draw,
-    pass::{SurfaceFlags, deform::DeformBuffers},
+    pass::{Driven, SurfaceFlags, deform::DeformBuffers},
     textures::{Encoding, TextureSet},
     uniforms::{AffineRows, DeformGroup, DeformVertex, MaterialUniform, MorphEntry, StaticVertex, pack_unit},
 };
@@ -164,6 +164,7 @@ impl Renderer {
 
     /// One draw for each opaque material, one for each transparent part; outlines likewise.
     fn make_draws(&mut self, scene: &Scene, parts: &[Part]) -> Vec<Draw> {
+        let driven = Driven::of(scene);
         let mut draws: Vec<Draw> = Vec::new();
         for part in parts {
             let Some(material) = scene.materials.get(part.material) else { continue };
@@ -177,7 +178,7 @@ impl Renderer {
                 last.indices.end = part.indices.end;
                 continue;
             }
-            let flags = SurfaceFlags::of(material, part.has_vertex_colors);
+            let flags = SurfaceFlags::of(material, &driven[part.material], part.has_vertex_colors);
             draws.push(Draw {
                 material: part.material,
                 indices: part.indices.clone(),
@@ -190,7 +191,7 @@ impl Renderer {
                 } else {
                     self.opaque.pipeline(&self.gpu, &self.layouts, flags, material)
                 },
-                outline: self.outline.pipeline(&self.gpu, &self.layouts, flags, material),
+                outline: self.outline.pipeline(&self.gpu, &self.layouts, flags, material, &driven[part.material]),
                 prepass: self.prepass.pipeline(&self.gpu, &self.layouts, flags, material),
             });
         }

@@ -4,6 +4,8 @@ import package::bind::surface::SurfaceOptions;
 override UNLIT: bool = false;
 override BASE_TEXTURE: bool = false;
 override SHADE_TEXTURE: bool = false;
+// The shade texture is the base texture: one lookup serves both.
+override SHADE_IS_BASE: bool = false;
 override SHIFT_TEXTURE: bool = false;
 override NORMAL_MAP: bool = false;
 override EMISSION_TEXTURE: bool = false;
@@ -18,7 +20,7 @@ override ALPHA_MASK: bool = false;
 
 fn surface_options() -> SurfaceOptions {
     return SurfaceOptions(
-        UNLIT, BASE_TEXTURE, SHADE_TEXTURE, SHIFT_TEXTURE, NORMAL_MAP, EMISSION_TEXTURE, MATCAP, RIM, RIM_MASK,
-        UV_TRANSFORMS, UV_ANIMATION, UV_ANIMATION_MASK, VERTEX_COLOR, ALPHA_MASK
+        UNLIT, BASE_TEXTURE, SHADE_TEXTURE, SHADE_IS_BASE, SHIFT_TEXTURE, NORMAL_MAP, EMISSION_TEXTURE, MATCAP, RIM,
+        RIM_MASK, UV_TRANSFORMS, UV_ANIMATION, UV_ANIMATION_MASK, VERTEX_COLOR, ALPHA_MASK
     );
 }

@@ -17,6 +17,7 @@ struct SurfaceOptions {
     unlit: bool,
     base_texture: bool,
     shade_texture: bool,
+    shade_is_base: bool,
     shift_texture: bool,
     normal_map: bool,
     emission_texture: bool,
@@ -65,16 +66,16 @@ fn animated_uv(options: SurfaceOptions, uv: vec4f) -> vec4f {
     );
 }
 
-// Base colour and alpha.
-fn surface_base(options: SurfaceOptions, in: SurfaceInput, uv: vec4f) -> vec4f {
-    var base = material.base_color;
+// What base colour and alpha are multiplied with: texture and vertex colour.
+fn surface_texel(options: SurfaceOptions, in: SurfaceInput, uv: vec4f) -> vec4f {
+    var texel = vec4f(1.0);
     if options.base_texture {
-        base *= textureSample(base_texture, base_sampler, texture_uv(options, uv, material.base_uv));
+        texel = textureSample(base_texture, base_sampler, texture_uv(options, uv, material.base_uv));
     }
     if options.vertex_color {
-        base *= in.color;
+        texel *= in.color;
     }
-    return base;
+    return texel;
 }
 
 // Ambient radiance on a surface that faces n.
@@ -85,7 +86,8 @@ fn ambient(n_y: f32) -> vec3f {
 // Shaded colour (linear, straight) and alpha. `in.normal` need not be unit; it faces the viewer.
 fn shade_surface(options: SurfaceOptions, in: SurfaceInput) -> vec4f {
     let uv = animated_uv(options, in.uv);
-    let base = surface_base(options, in, uv);
+    let texel = surface_texel(options, in, uv);
+    let base = material.base_color * texel;
     if options.alpha_mask && base.a < material.alpha_cutoff {
         discard;
     }
@@ -109,11 +111,15 @@ fn shade_surface(options: SurfaceOptions, in: SurfaceInput) -> vec4f {
     }
 
     var shade = material.shade_color;
-    if options.shade_texture {
-        shade *= textureSample(shade_texture, shade_sampler, texture_uv(options, uv, material.shade_uv)).rgb;
-    }
-    if options.vertex_color {
-        shade *= in.color.rgb;
+    if options.shade_is_base {
+        shade *= texel.rgb;
+    } else {
+        if options.shade_texture {
+            shade *= textureSample(shade_texture, shade_sampler, texture_uv(options, uv, material.shade_uv)).rgb;
+        }
+        if options.vertex_color {
+            shade *= in.color.rgb;
+        }
     }
     var shift = material.shift;
     if options.shift_texture {

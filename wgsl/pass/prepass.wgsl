@@ -1,7 +1,7 @@
 // View-space normal and part id, one sample a pixel, for effects and channels that read them.
 import package::bind::frame::frame;
 import package::bind::options::surface_options;
-import package::bind::surface::{SurfaceInput, animated_uv, surface_base};
+import package::bind::surface::{SurfaceInput, animated_uv, surface_texel};
 import package::bind::material::material;
 import package::bind::vertex::{VertexInput, world_direction, world_position};
 
@@ -35,7 +35,8 @@ fn fs_main(in: PrepassVarying, @builtin(front_facing) front_facing: bool) -> Pre
     if ALPHA_TEST {
         let options = surface_options();
         let input = SurfaceInput(vec3f(0.0), in.normal, vec4f(0.0), in.uv, in.color);
-        if surface_base(options, input, animated_uv(options, in.uv)).a < material.alpha_cutoff {
+        let texel = surface_texel(options, input, animated_uv(options, in.uv));
+        if material.base_color.a * texel.a < material.alpha_cutoff {
             discard;
         }
     }

@@ -11,7 +11,35 @@ use super::{Layouts, Output};
 use crate::{
     Gpu,
     material::{AlphaMode, Material, Shading, TextureRef, UvTransform},
+    scene::{ColorTarget, Scene},
 };
+
+/// What expressions change of a material: pipelines must keep it even where it is off at rest.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Driven {
+    pub colors: Vec<ColorTarget>,
+    pub uvs: bool,
+}
+
+impl Driven {
+    /// What the expressions of a scene drive, for each material.
+    pub fn of(scene: &Scene) -> Vec<Self> {
+        let mut driven = vec![Self::default(); scene.materials.len()];
+        for expression in scene.character.iter().flat_map(|c| &c.expressions) {
+            for bind in &expression.colors {
+                if let Some(material) = driven.get_mut(bind.material) {
+                    material.colors.push(bind.target);
+                }
+            }
+            for bind in &expression.uv_transforms {
+                if let Some(material) = driven.get_mut(bind.material) {
+                    material.uvs = true;
+                }
+            }
+        }
+        driven
+    }
+}
 
 /// Depth format of every target.
 pub(crate) const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
@@ -22,6 +50,7 @@ pub(crate) struct SurfaceFlags {
     pub unlit: bool,
     pub base_texture: bool,
     pub shade_texture: bool,
+    pub shade_is_base: bool,
     pub shift_texture: bool,
     pub normal_map: bool,
     pub emission_texture: bool,
@@ -36,18 +65,22 @@ pub(crate) struct SurfaceFlags {
 }
 
 impl SurfaceFlags {
-    /// What a material uses.
-    pub fn of(material: &Material, has_vertex_colors: bool) -> Self {
+    /// What a material uses, at rest or under any expression.
+    pub fn of(material: &Material, driven: &Driven, has_vertex_colors: bool) -> Self {
         let toon = match &material.shading {
             Shading::Toon(toon) => Some(toon),
             Shading::Unlit => None,
         };
-        let rim = toon.is_some() && material.rim.color != [0.0; 3];
-        let matcap = toon.is_some() && material.matcap.is_some_and(|m| m.color != [0.0; 3]);
+        let visible = |color: [f32; 3], target| color != [0.0; 3] || driven.colors.contains(&target);
+        let rim = toon.is_some() && visible(material.rim.color, ColorTarget::RimColor);
+        let matcap = material.matcap.filter(|m| toon.is_some() && visible(m.color, ColorTarget::MatcapColor));
         let shade_texture = toon.and_then(|t| t.shade_texture);
+        let shade_is_base = shade_texture.is_some() && shade_texture == material.base.texture;
         let shift_texture = toon.and_then(|t| t.shift_texture);
         let normal_map = material.normal_map.filter(|_| toon.is_some());
-        let rim_mask = material.rim.mask.filter(|_| rim || matcap);
+        let emission_texture =
+            material.emission.texture.filter(|_| visible(material.emission.color, ColorTarget::EmissionColor));
+        let rim_mask = material.rim.mask.filter(|_| rim || matcap.is_some());
         let outline_mask = material.outline.and_then(|o| o.width_mask);
         let uv_animation = material.uv_animation.is_active();
         let animation_mask = material.uv_animation.mask.filter(|_| uv_animation);
@@ -56,7 +89,7 @@ impl SurfaceFlags {
             shade_texture,
             shift_texture,
             normal_map.map(|n| n.texture),
-            material.emission.texture,
+            emission_texture,
             rim_mask,
             outline_mask,
             animation_mask,
@@ -65,14 +98,15 @@ impl SurfaceFlags {
         Self {
             unlit: toon.is_none(),
             base_texture: material.base.texture.is_some(),
-            shade_texture: shade_texture.is_some(),
+            shade_texture: shade_texture.is_some() && !shade_is_base,
+            shade_is_base,
             shift_texture: shift_texture.is_some(),
             normal_map: normal_map.is_some(),
-            emission_texture: material.emission.texture.is_some(),
-            matcap,
+            emission_texture: emission_texture.is_some(),
+            matcap: matcap.is_some(),
             rim,
             rim_mask: rim_mask.is_some(),
-            uv_transforms: used.iter().flatten().any(moved),
+            uv_transforms: driven.uvs || used.iter().flatten().any(moved),
             uv_animation,
             uv_animation_mask: animation_mask.is_some(),
             vertex_color: has_vertex_colors,
@@ -86,6 +120,7 @@ impl SurfaceFlags {
             ("UNLIT", self.unlit),
             ("BASE_TEXTURE", self.base_texture),
             ("SHADE_TEXTURE", self.shade_texture),
+            ("SHADE_IS_BASE", self.shade_is_base),
             ("SHIFT_TEXTURE", self.shift_texture),
             ("NORMAL_MAP", self.normal_map),
             ("EMISSION_TEXTURE", self.emission_texture),

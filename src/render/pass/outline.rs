@@ -2,11 +2,12 @@
 
 use std::collections::HashMap;
 
-use super::{ColorPipeline, SurfaceFlags, color_pipeline, encode_constant};
+use super::{ColorPipeline, Driven, SurfaceFlags, color_pipeline, encode_constant};
 use crate::{
     Gpu,
     material::{AlphaMode, Material, OutlineWidth},
     render::{Layouts, Output, draw_list, shaders, upload::GpuScene},
+    scene::ColorTarget,
 };
 
 /// Pipelines by what a material uses.
@@ -44,6 +45,7 @@ impl OutlinePass {
         layouts: &Layouts,
         flags: SurfaceFlags,
         material: &Material,
+        driven: &Driven,
     ) -> Option<wgpu::RenderPipeline> {
         let outline = material.outline?;
         let (width, screen_width) = match outline.width {
@@ -54,7 +56,9 @@ impl OutlinePass {
             return None;
         }
         let blend = material.alpha.mode == AlphaMode::Blend;
-        let shaded = outline.lighting_mix > 0.0 || material.alpha.mode != AlphaMode::Opaque;
+        // Black stays black whatever the light.
+        let colored = outline.color != [0.0; 3] || driven.colors.contains(&ColorTarget::OutlineColor);
+        let shaded = outline.lighting_mix > 0.0 && colored || material.alpha.mode != AlphaMode::Opaque;
         let mut key = OutlineKey {
             flags,
             screen_width,
