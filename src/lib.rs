@@ -3,7 +3,5 @@ pub mod color;
 mod error;
 pub mod material;
 pub mod scene;
-pub mod import {
-    //! stub
-}
+pub mod import;
 pub use error::{Error, Result};
