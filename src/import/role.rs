@@ -97,9 +97,9 @@ struct Head {
     nodes: BTreeSet<usize>,
     /// Eye bones and everything below them.
     eyes: BTreeSet<usize>,
-    /// Origin of the head bone, world space.
-    origin: Vec3,
-    /// Distance from the head bone to the eyes, or a guess from the height of the neck, metres.
+    /// Point between the eyes, world space.
+    gaze: Vec3,
+    /// Distance from the head bone to that point, metres.
     size: f32,
 }
 
@@ -114,7 +114,11 @@ pub(super) fn assign(scene: &mut Scene) {
         let node_name = carrier.and_then(|c| scene.nodes.get(c)).map_or("", |n| n.name.as_str());
         let list = mesh.primitives.iter().map(|primitive| {
             let material = scene.materials.get(primitive.material).map_or("", |m| m.name.as_str());
-            let named = from_name(material).or_else(|| from_name(&mesh.name)).or_else(|| from_name(node_name));
+            // The name of a mesh of many materials says little about each.
+            let named = from_name(material).or_else(|| {
+                let alone = mesh.primitives.len() == 1;
+                alone.then(|| from_name(&mesh.name).or_else(|| from_name(node_name))).flatten()
+            });
             let (Some(head), Some(carrier)) = (&head, carrier) else { return named.unwrap_or_default() };
             let is_driven = mesh.morph_names.iter().enumerate().any(|(t, _)| driven.contains(&(index, t)) && moves(primitive, t));
             judge(scene, &world, head, mesh, primitive, carrier, named, is_driven)
@@ -154,10 +158,17 @@ fn find_head(scene: &Scene, world: &[Mat4]) -> Option<Head> {
     let eyes: Vec<usize> = [HumanBone::LeftEye, HumanBone::RightEye].iter().filter_map(|b| scene.bone_node(*b)).collect();
     let place = |n: usize| world.get(n).map(|m| m.w_axis.truncate());
     let origin = place(node)?;
-    let to_eyes = eyes.iter().filter_map(|e| place(*e)).map(|e| e.distance(origin)).fold(0.0f32, f32::max);
-    let neck = scene.bone_node(HumanBone::Neck).and_then(place).map_or(0.0, |n| n.distance(origin));
-    let size = if to_eyes > 0.01 { to_eyes } else { neck.max(0.05) };
-    Some(Head { nodes: below(&[node]), eyes: below(&eyes), origin, size })
+    let offset = scene.character.as_ref()?.look_at.map_or(Vec3::ZERO, |l| l.offset_from_head);
+    let gaze = if offset.length() > 0.02 {
+        world.get(node)?.transform_point3(offset)
+    } else if let [left, right] = *eyes.iter().filter_map(|e| place(*e)).collect::<Vec<_>>() {
+        (left + right) * 0.5
+    } else {
+        let neck = scene.bone_node(HumanBone::Neck).and_then(place).map_or(0.1, |n| n.distance(origin));
+        origin + Vec3::new(0.0, 0.8, 0.8) * neck
+    };
+    let size = gaze.distance(origin).max(0.02);
+    Some(Head { nodes: below(&[node]), eyes: below(&eyes), gaze, size })
 }
 
 /// Share of a primitive's vertices that follow a set of nodes.
@@ -204,8 +215,8 @@ fn in_front_of_face(scene: &Scene, world: &[Mat4], head: &Head, primitive: &Prim
     let joint = skin.and_then(|s| Some(world.get(*s.joints.first()?)? * s.joint_from_mesh.first()?));
     let matrix = joint.or_else(|| world.get(carrier).copied()).unwrap_or(Mat4::IDENTITY);
     let before = primitive.positions.iter().filter(|p| {
-        let at = (matrix.transform_point3(Vec3::from_array(**p)) - head.origin) / head.size;
-        at.z > 0.5 && (-0.5..2.0).contains(&at.y) && at.x.abs() < 1.2
+        let at = (matrix.transform_point3(Vec3::from_array(**p)) - head.gaze) / head.size;
+        at.z > -0.25 && at.y.abs() < 0.8 && at.x.abs() < 0.9
     });
-    before.count().saturating_mul(12) > primitive.positions.len()
+    before.count().saturating_mul(20) > primitive.positions.len()
 }
