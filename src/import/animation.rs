@@ -1,0 +1,128 @@
+//! Animation clips.
+
+use crate::scene::{Animation, AnimationChannel, AnimationValues, Interpolation, Mesh};
+
+use super::accessor::{Accessor, Component};
+use super::fault::{Fault, Limits, Result, quoted};
+use super::geometry::Budget;
+use super::graph::Graph;
+use super::json::Json;
+use super::warnings::Warnings;
+
+use Component::{F32, I8, I16, U8, U16};
+
+/// What reading clips needs.
+pub(super) struct Context<'a> {
+    pub(super) accessors: &'a [Accessor<'a>],
+    pub(super) graph: &'a Graph,
+    pub(super) meshes: &'a [Mesh],
+    pub(super) limits: &'a Limits,
+}
+
+/// Reads all clips.
+pub(super) fn read_all(root: &Json, cx: &Context, budget: &mut Budget, warnings: &mut Warnings) -> Result<Vec<Animation>> {
+    let mut clips = Vec::new();
+    for json in root.objects("animations")? {
+        let samplers = json.objects("samplers")?;
+        let mut channels = Vec::new();
+        for channel in json.objects("channels")? {
+            let index = channel.need("sampler")?.as_index(samplers.len(), "samplers")?;
+            let target = channel.need("target")?;
+            let Some(sampler) = samplers.get(index) else { continue };
+            if let Some(read) = read_channel(&target, sampler, cx, budget, warnings)? {
+                channels.push(read);
+            }
+        }
+        clips.push(Animation { name: json.name()?, channels });
+    }
+    Ok(clips)
+}
+
+fn accessor<'a>(sampler: &Json, key: &str, cx: &'a Context) -> Result<&'a Accessor<'a>> {
+    let json = sampler.need(key)?;
+    let index = json.as_index(cx.accessors.len(), "accessors")?;
+    cx.accessors.get(index).ok_or_else(|| json.fault("accessor is missing"))
+}
+
+fn read_channel(target: &Json, sampler: &Json, cx: &Context, budget: &mut Budget, warnings: &mut Warnings) -> Result<Option<AnimationChannel>> {
+    let path = target.need("path")?.as_str()?;
+    if path == "pointer" {
+        warnings.add(target.pointer(), "KHR_animation_pointer is not supported: channel skipped");
+        return Ok(None);
+    }
+    if !matches!(path, "translation" | "rotation" | "scale" | "weights") {
+        return Err(target.fault(format!("found path {}, expected translation, rotation, scale or weights", quoted(path))));
+    }
+    let interpolation = match sampler.str("interpolation")?.unwrap_or("LINEAR") {
+        "LINEAR" => Interpolation::Linear,
+        "STEP" => Interpolation::Step,
+        "CUBICSPLINE" => Interpolation::CubicSpline,
+        other => return Err(sampler.fault(format!("found interpolation {}, expected LINEAR, STEP or CUBICSPLINE", quoted(other)))),
+    };
+    let input = accessor(sampler, "input", cx)?;
+    input.expect("sampler input", &["SCALAR"], &[F32], sampler.pointer())?;
+    let output = accessor(sampler, "output", cx)?;
+    let Some(gltf_node) = target.index("node", cx.graph.from_gltf.len(), "nodes")? else {
+        warnings.add(target.pointer(), "channel without a node: skipped");
+        return Ok(None);
+    };
+    let node = cx.graph.node(gltf_node).ok_or_else(|| target.fault("node is missing"))?;
+    if input.count == 0 {
+        warnings.add(sampler.pointer(), "sampler without keys: channel skipped");
+        return Ok(None);
+    }
+    budget.bytes(sampler.pointer(), input.count.saturating_add(output.count).saturating_mul(16), cx.limits)?;
+    let times: Vec<f32> = input.all_finite::<1>("sampler input times")?.into_flattened();
+    if !times.is_sorted_by(|a, b| a < b) {
+        return Err(input.fault("sampler input: times are not strictly increasing"));
+    }
+
+    let per_key = if interpolation == Interpolation::CubicSpline { 3 } else { 1 };
+    let expect_count = |values: u64| -> Result<()> {
+        let expected = input.count.saturating_mul(per_key).saturating_mul(values);
+        if output.count == expected {
+            return Ok(());
+        }
+        Err(Fault::new(sampler.pointer(), format!("sampler output for {path}: found count {}, expected {expected} for {} keys", output.count, input.count)))
+    };
+    let values = match path {
+        "translation" | "scale" => {
+            output.expect(&format!("sampler output for {path}"), &["VEC3"], &[F32], sampler.pointer())?;
+            expect_count(1)?;
+            let rows = output.all_finite::<3>("sampler output")?;
+            if path == "scale" { AnimationValues::Scale(rows) } else { AnimationValues::Translation(rows) }
+        }
+        "rotation" => {
+            output.expect("sampler output for rotation", &["VEC4"], &[F32, I8, U8, I16, U16], sampler.pointer())?;
+            if output.component != F32 && !output.normalized {
+                return Err(output.fault("sampler output for rotation: found integers that are not normalized, expected normalized ones"));
+            }
+            expect_count(1)?;
+            let mut rows = output.all_finite::<4>("sampler output")?;
+            if interpolation != Interpolation::CubicSpline {
+                normalize(&mut rows);
+            }
+            AnimationValues::Rotation(rows)
+        }
+        _ => {
+            output.expect("sampler output for weights", &["SCALAR"], &[F32, I8, U8, I16, U16], sampler.pointer())?;
+            let mesh = cx.graph.nodes.get(node).and_then(|n| n.mesh).and_then(|m| cx.meshes.get(m));
+            let Some(mesh) = mesh.filter(|m| !m.morph_names.is_empty()) else {
+                warnings.add(target.pointer(), "channel animates weights of a node without morph targets: skipped");
+                return Ok(None);
+            };
+            expect_count(mesh.morph_names.len() as u64)?;
+            AnimationValues::MorphWeights(output.all_finite::<1>("sampler output")?.into_flattened())
+        }
+    };
+    Ok(Some(AnimationChannel { node, times, interpolation, values }))
+}
+
+/// Makes quaternions unit; those without a direction become the identity.
+fn normalize(rows: &mut [[f32; 4]]) {
+    for row in rows {
+        let q = glam::DQuat::from_array(row.map(f64::from));
+        let length = q.length();
+        *row = if length > 1e-12 { (q / length).as_quat().to_array() } else { [0.0, 0.0, 0.0, 1.0] };
+    }
+}

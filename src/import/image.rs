@@ -1,0 +1,237 @@
+//! Hardened decoding of PNG, JPEG and WebP: size checked by header, ancillary PNG chunks dropped, panics contained.
+
+use std::borrow::Cow;
+use std::io::Cursor;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+
+use image::{DynamicImage, ImageDecoder, codecs};
+
+use crate::scene::Image;
+use crate::{Error, Result};
+
+use super::fault::{Fault, within};
+use super::files::{ReadFault, read_regular};
+use super::Limits;
+
+const PNG_SIGNATURE: &[u8] = b"\x89PNG\r\n\x1a\n";
+
+/// Reads and decodes an image file.
+///
+/// # Errors
+/// The file cannot be read, is no PNG, JPEG or WebP, is corrupt, or is over the [`Limits`] with their defaults.
+pub fn load(path: impl AsRef<Path>) -> Result<Image> {
+    let path = path.as_ref();
+    let limits = Limits::default();
+    let name = path.display().to_string();
+    let bytes = read_regular(path, &limits).map_err(|e| read_error(&name, e, &limits))?;
+    let mut image = decode(&name, &bytes, &limits)?;
+    image.name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    Ok(image)
+}
+
+/// Decodes an image in memory. `name` stands in errors and becomes the name of the image.
+///
+/// # Errors
+/// The bytes are no PNG, JPEG or WebP, are corrupt, or are over the limits.
+pub fn decode(name: &str, bytes: &[u8], limits: &Limits) -> Result<Image> {
+    let decoded = probe("image", bytes, limits).and_then(|p| p.decode("image", limits));
+    decoded.map(|image| Image { name: name.to_owned(), ..image }).map_err(|fault| fault.into_error(name))
+}
+
+/// The public error of a failed read.
+pub(super) fn read_error(name: &str, fault: ReadFault, limits: &Limits) -> Error {
+    match fault {
+        ReadFault::Io(e) => Error::io(name, &e),
+        ReadFault::NotRegular => Error::Io { path: name.to_owned(), reason: "not a regular file".into() },
+        ReadFault::TooLarge(found) => {
+            Fault::Limit { pointer: "file".into(), found, limit: limits.file_bytes, unit: "bytes" }.into_error(name)
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Format {
+    Png,
+    Jpeg,
+    Webp,
+}
+
+/// An image whose header is known and within the limits.
+#[derive(Debug)]
+pub(super) struct Probe<'a> {
+    format: Format,
+    bytes: Cow<'a, [u8]>,
+    pub(super) width: u32,
+    pub(super) height: u32,
+    bits: u8,
+}
+
+/// Finds format and size without decoding pixels.
+pub(super) fn probe<'a>(pointer: &str, bytes: &'a [u8], limits: &Limits) -> super::fault::Result<Probe<'a>> {
+    let probe = if bytes.starts_with(PNG_SIGNATURE) {
+        let header = clean_png(bytes).map_err(|m| Fault::new(pointer, format!("PNG image: {m}")))?;
+        Probe { format: Format::Png, bytes: header.bytes.into(), width: header.width, height: header.height, bits: header.bits }
+    } else if bytes.starts_with(b"\xFF\xD8") {
+        let size = guarded(|| codecs::jpeg::JpegDecoder::new(Cursor::new(bytes)).map(|d| d.dimensions()));
+        let (width, height) = size.map_err(|m| Fault::new(pointer, format!("JPEG image: {m}")))?;
+        Probe { format: Format::Jpeg, bytes: bytes.into(), width, height, bits: 8 }
+    } else if bytes.starts_with(b"RIFF") && bytes.get(8..12) == Some(b"WEBP") {
+        let size = guarded(|| codecs::webp::WebPDecoder::new(Cursor::new(bytes)).map(|d| d.dimensions()));
+        let (width, height) = size.map_err(|m| Fault::new(pointer, format!("WebP image: {m}")))?;
+        Probe { format: Format::Webp, bytes: bytes.into(), width, height, bits: 8 }
+    } else {
+        let head = bytes.get(..bytes.len().min(8)).unwrap_or_default().escape_ascii();
+        return Err(Fault::new(
+            pointer,
+            format!("image of {} bytes starts with \"{head}\", expected the signature of a PNG, JPEG or WebP", bytes.len()),
+        ));
+    };
+    if probe.width == 0 || probe.height == 0 {
+        return Err(Fault::new(pointer, format!("image size is {} x {}, expected at least 1 x 1", probe.width, probe.height)));
+    }
+    let largest = u64::from(probe.width.max(probe.height));
+    within(pointer, largest, u64::from(limits.image_size), "pixels of image width or height (dimension limit)")?;
+    within(pointer, probe.texture_bytes(), limits.image_bytes, "bytes of decoded image")?;
+    Ok(probe)
+}
+
+impl Probe<'_> {
+    /// Bytes as RGBA8.
+    pub(super) fn texture_bytes(&self) -> u64 {
+        u64::from(self.width).saturating_mul(u64::from(self.height)).saturating_mul(4)
+    }
+
+    /// Media type of the data.
+    pub(super) const fn mime(&self) -> &'static str {
+        match self.format {
+            Format::Png => "image/png",
+            Format::Jpeg => "image/jpeg",
+            Format::Webp => "image/webp",
+        }
+    }
+
+    /// Decodes to RGBA8.
+    pub(super) fn decode(&self, pointer: &str, limits: &Limits) -> super::fault::Result<Image> {
+        let mut caps = image::Limits::default();
+        caps.max_image_width = Some(limits.image_size);
+        caps.max_image_height = Some(limits.image_size);
+        // A decoder may need 16-bit RGBA and as much again for itself.
+        caps.max_alloc = Some(self.texture_bytes().saturating_mul(4).saturating_add(1 << 20));
+        let cursor = Cursor::new(&*self.bytes);
+        let (name, pixels) = match self.format {
+            Format::Png => ("png", guarded(|| DynamicImage::from_decoder(codecs::png::PngDecoder::with_limits(cursor, caps)?))),
+            Format::Jpeg => ("jpeg", guarded(|| limited(codecs::jpeg::JpegDecoder::new(cursor)?, caps))),
+            Format::Webp => ("webp", guarded(|| limited(codecs::webp::WebPDecoder::new(cursor)?, caps))),
+        };
+        let pixels = pixels.map_err(|m| Fault::new(pointer, format!("{name} image is corrupt: {m}")))?;
+        if (pixels.width(), pixels.height()) != (self.width, self.height) {
+            return Err(Fault::new(pointer, format!("{name} image: header and data disagree about the size")));
+        }
+        Ok(Image {
+            name: String::new(),
+            width: self.width,
+            height: self.height,
+            pixels: pixels.into_rgba8().into_raw(),
+            format: name,
+            source_bits: self.bits,
+        })
+    }
+}
+
+fn limited(mut decoder: impl ImageDecoder, caps: image::Limits) -> image::ImageResult<DynamicImage> {
+    decoder.set_limits(caps)?;
+    DynamicImage::from_decoder(decoder)
+}
+
+/// Runs a decoder; a panic inside it becomes an error.
+fn guarded<T>(decode: impl FnOnce() -> image::ImageResult<T>) -> std::result::Result<T, String> {
+    match catch_unwind(AssertUnwindSafe(decode)) {
+        Ok(result) => result.map_err(|e| e.to_string()),
+        Err(_) => Err("the decoder failed on corrupt data".into()),
+    }
+}
+
+/// A PNG with only the chunks that pixels need.
+struct CleanPng {
+    bytes: Vec<u8>,
+    width: u32,
+    height: u32,
+    bits: u8,
+}
+
+/// Copies the critical chunks and `tRNS`. Colour profiles and texts can be bombs and are not used; the decoder panics on
+/// some malformed palettes.
+fn clean_png(bytes: &[u8]) -> std::result::Result<CleanPng, String> {
+    let mut out = Vec::with_capacity(bytes.len());
+    out.extend_from_slice(PNG_SIGNATURE);
+    let mut rest = bytes.get(PNG_SIGNATURE.len()..).unwrap_or_default();
+    let mut header: Option<(u32, u32, u8, u8)> = None;
+    let (mut has_data, mut has_palette) = (false, false);
+    while !rest.is_empty() {
+        let (Some((length, after)), Some(kind)) = (rest.split_first_chunk::<4>(), rest.get(4..8)) else {
+            return Err("truncated chunk header".into());
+        };
+        let length = u32::from_be_bytes(*length) as usize;
+        let name = kind.escape_ascii().to_string();
+        let body = after.get(4..).and_then(|b| b.get(..length));
+        let whole = length.checked_add(12).and_then(|n| rest.get(..n));
+        let (Some(body), Some(whole)) = (body, whole) else {
+            return Err(format!("chunk {name} has length {length}, the data is truncated after {}", after.len().saturating_sub(4)));
+        };
+        match (kind, &header) {
+            (b"IHDR", None) => {
+                let &[w0, w1, w2, w3, h0, h1, h2, h3, bits, color, ..] = body else {
+                    return Err(format!("IHDR header has {length} bytes, expected 13"));
+                };
+                if length != 13 {
+                    return Err(format!("IHDR header has {length} bytes, expected 13"));
+                }
+                header = Some((u32::from_be_bytes([w0, w1, w2, w3]), u32::from_be_bytes([h0, h1, h2, h3]), bits, color));
+                out.extend_from_slice(whole);
+            }
+            (_, None) => return Err(format!("first chunk is {name}, expected IHDR")),
+            (b"PLTE", Some((.., color))) => {
+                if length == 0 || length > 768 || !length.is_multiple_of(3) {
+                    return Err(format!("palette (PLTE) has {length} bytes, expected a multiple of 3 up to 768"));
+                }
+                // A suggested palette of a true-colour picture is of no use.
+                if *color == 3 && !has_palette && !has_data {
+                    has_palette = true;
+                    out.extend_from_slice(whole);
+                }
+            }
+            (b"tRNS", Some((.., color))) => {
+                let fits = match color {
+                    0 => length == 2,
+                    2 => length == 6,
+                    3 => has_palette && (1..=256).contains(&length),
+                    _ => false,
+                };
+                if fits && !has_data {
+                    out.extend_from_slice(whole);
+                }
+            }
+            (b"IDAT", Some((.., color))) => {
+                if *color == 3 && !has_palette {
+                    return Err("palette (PLTE) is missing before the image data".into());
+                }
+                has_data = true;
+                out.extend_from_slice(whole);
+            }
+            (b"IEND", _) => {
+                out.extend_from_slice(whole);
+                break;
+            }
+            (b"IHDR", _) => return Err("second IHDR header".into()),
+            ([first, ..], _) if first.is_ascii_uppercase() => return Err(format!("unknown critical chunk {name}")),
+            _ => {}
+        }
+        rest = rest.get(whole.len()..).unwrap_or_default();
+    }
+    let Some((width, height, bits, _)) = header else { return Err("no IHDR header".into()) };
+    if !has_data {
+        return Err("no image data (IDAT)".into());
+    }
+    Ok(CleanPng { bytes: out, width, height, bits: if bits == 16 { 16 } else { 8 } })
+}
