@@ -1,0 +1,148 @@
+//! Scenes made in code: a sphere, a cube, flat squares; and a view that shows them.
+
+#![allow(dead_code, reason = "every test file uses its own share")]
+
+use glam::Vec3;
+use hikage::{
+    Background, Gpu, Output, Renderer, View,
+    color::{LinearRgb, Srgb},
+    material::{Base, Material, Shading, TextureRef, Toon},
+    scene::{Ambient, Camera, DirectionalLight, Image, Lights, Mesh, Node, Primitive, Sampler, Scene, Texture},
+};
+
+/// The adapter of the tests. `HIKAGE_ADAPTER` names another than the default.
+pub fn gpu() -> Gpu {
+    let name = std::env::var("HIKAGE_ADAPTER").ok();
+    Gpu::headless(name.as_deref()).unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// A material with a red lit and a blue shade colour.
+pub fn two_tone() -> Material {
+    Material {
+        base: Base { color: [0.9, 0.3, 0.25, 1.0], texture: None },
+        shading: Shading::Toon(Toon { shade_color: [0.3, 0.12, 0.4], ..Toon::default() }),
+        ..Material::default()
+    }
+}
+
+/// One node with one mesh of the given parts.
+pub fn scene(parts: Vec<(Primitive, Material)>) -> Scene {
+    let (mut primitives, mut materials) = (Vec::new(), Vec::new());
+    for (mut primitive, material) in parts {
+        primitive.material = materials.len();
+        materials.push(material);
+        primitives.push(primitive);
+    }
+    Scene {
+        nodes: vec![Node { mesh: Some(0), ..Node::default() }],
+        meshes: vec![Mesh { primitives, ..Mesh::default() }],
+        materials,
+        ..Scene::default()
+    }
+}
+
+/// Adds an image to a scene and returns how a material refers to it.
+pub fn texture(scene: &mut Scene, width: u32, height: u32, texel: impl Fn(u32, u32) -> [u8; 4]) -> TextureRef {
+    let pixels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).flat_map(|(x, y)| texel(x, y)).collect();
+    scene.images.push(Image { width, height, pixels, ..Image::default() });
+    scene.textures.push(Texture { image: scene.images.len() - 1, sampler: Sampler::default() });
+    TextureRef { texture: scene.textures.len() - 1, ..TextureRef::default() }
+}
+
+/// A sphere around the origin; u runs around +Y from -Z over -X and +Z, v down from the pole.
+pub fn sphere(radius: f32, rings: u32, segments: u32) -> Primitive {
+    let mut p = Primitive { uvs: vec![Vec::new()], ..Primitive::default() };
+    for ring in 0..=rings {
+        let v = ring as f32 / rings as f32;
+        let (sin_polar, cos_polar) = (v * std::f32::consts::PI).sin_cos();
+        for segment in 0..=segments {
+            let u = segment as f32 / segments as f32;
+            let (sin, cos) = (u * std::f32::consts::TAU).sin_cos();
+            let n = Vec3::new(-sin * sin_polar, cos_polar, -cos * sin_polar);
+            p.positions.push((n * radius).to_array());
+            p.normals.push(n.to_array());
+            p.outline_normals.push(n.to_array());
+            p.tangents.push([-cos, 0.0, sin, 1.0]);
+            p.uvs[0].push([u, v]);
+        }
+    }
+    let row = segments + 1;
+    for ring in 0..rings {
+        for segment in 0..segments {
+            let a = ring * row + segment;
+            p.indices.extend([a, a + row, a + 1, a + 1, a + row, a + row + 1]);
+        }
+    }
+    p
+}
+
+/// A cube with hard edges and smoothed outline normals.
+pub fn cube(half: f32) -> Primitive {
+    let mut p = Primitive { uvs: vec![Vec::new()], ..Primitive::default() };
+    for axis in 0..3 {
+        for sign in [-1.0f32, 1.0] {
+            let n = Vec3::AXES[axis] * sign;
+            let (s, t) = (Vec3::AXES[(axis + 1) % 3] * sign, Vec3::AXES[(axis + 2) % 3]);
+            let first = p.positions.len() as u32;
+            for (a, b) in [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)] {
+                let corner = n + s * a + t * b;
+                p.positions.push((corner * half).to_array());
+                p.normals.push(n.to_array());
+                p.outline_normals.push(corner.normalize().to_array());
+                p.uvs[0].push([a * 0.5 + 0.5, 0.5 - b * 0.5]);
+            }
+            p.indices.extend([0, 1, 2, 0, 2, 3].map(|i| first + i));
+        }
+    }
+    p
+}
+
+/// A square in the plane z that faces +Z.
+pub fn square(center: [f32; 2], half: f32, z: f32) -> Primitive {
+    let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+    Primitive {
+        positions: corners.iter().map(|(a, b)| [center[0] + a * half, center[1] + b * half, z]).collect(),
+        normals: vec![[0.0, 0.0, 1.0]; 4],
+        outline_normals: vec![[0.0, 0.0, 1.0]; 4],
+        tangents: vec![[1.0, 0.0, 0.0, 1.0]; 4],
+        uvs: vec![corners.iter().map(|(a, b)| [a * 0.5 + 0.5, 0.5 - b * 0.5]).collect()],
+        indices: vec![0, 1, 2, 0, 2, 3],
+        ..Primitive::default()
+    }
+}
+
+/// A square picture of the origin from +Z at `distance`, lit from the upper left, without ambient light.
+pub fn view(size: u32, distance: f32) -> View {
+    View {
+        size: [size, size],
+        camera: Camera { eye: Vec3::Z * distance, target: Vec3::ZERO, ..Camera::default() },
+        lights: Lights {
+            directional: DirectionalLight {
+                to_light: Vec3::new(-0.5, 0.6, 0.62).normalize(),
+                ..DirectionalLight::default()
+            },
+            ambient: Ambient::uniform(LinearRgb::BLACK),
+            punctual: Vec::new(),
+        },
+        background: Background::Color(Srgb([0x80; 3])),
+        ..View::default()
+    }
+}
+
+/// Renders a scene with four samples.
+pub fn render(gpu: &Gpu, scene: &Scene, view: &View) -> Image {
+    render_with(gpu, scene, view, Output::default())
+}
+
+/// Renders a scene into a given output.
+pub fn render_with(gpu: &Gpu, scene: &Scene, view: &View, output: Output) -> Image {
+    let mut renderer = Renderer::with_output(gpu, output).expect("a renderer");
+    let mut uploaded = renderer.upload(scene).expect("an upload");
+    renderer.render(&mut uploaded, view).expect("a picture")
+}
+
+/// A pixel, from the top left.
+pub fn pixel(image: &Image, x: u32, y: u32) -> [u8; 4] {
+    let at = ((y * image.width + x) * 4) as usize;
+    image.pixels[at..at + 4].try_into().expect("four bytes")
+}

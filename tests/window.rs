@@ -1,0 +1,103 @@
+//! The windowed example runs on a virtual X server and shows a character.
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    process::{Child, Command, Stdio},
+    time::{Duration, Instant},
+};
+
+/// Ends the process when the test ends, however it ends.
+struct Killed(Child);
+
+impl Drop for Killed {
+    fn drop(&mut self) {
+        // Already gone is as good.
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+#[test]
+fn the_window_shows_the_character() {
+    let installed = Command::new("Xvfb").arg("-help").stdout(Stdio::null()).stderr(Stdio::null()).status().is_ok();
+    if !cfg!(target_os = "linux") || !installed {
+        eprintln!("NOT RUN: no Xvfb on this machine; `apt-get install xvfb libxkbcommon-x11-0` brings it");
+        return;
+    }
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("window");
+    fs::create_dir_all(&folder).expect("a folder for the screen");
+    let model = folder.join("sphere.glb");
+    fs::write(&model, support::sphere_glb()).expect("a model");
+    let screen = folder.join("Xvfb_screen0");
+    let _ = fs::remove_file(&screen);
+
+    let number = 90 + std::process::id() % 100;
+    let display = format!(":{number}");
+    let _server = Killed(
+        Command::new("Xvfb")
+            .args([&display, "-screen", "0", "800x800x24", "-nolisten", "tcp", "-fbdir"])
+            .arg(&folder)
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .expect("Xvfb starts"),
+    );
+    wait_for("the X server", || fs::exists(format!("/tmp/.X11-unix/X{number}")).unwrap_or(false));
+    let mut app = Killed(
+        Command::new(example("window"))
+            .arg(&model)
+            .env("DISPLAY", &display)
+            .env_remove("WAYLAND_DISPLAY")
+            .spawn()
+            .expect("the example starts"),
+    );
+    let mut seen = None;
+    wait_for("a picture in the window", || {
+        if let Some(status) = app.0.try_wait().expect("the example's state") {
+            panic!("the example ended: {status}");
+        }
+        seen = read_screen(&screen).filter(|s| s.pixels.chunks_exact(4).any(|p| p[..3] == [0x9f, 0xb4, 0xc7]));
+        seen.is_some()
+    });
+    let shown = seen.expect("a picture");
+    let picture = folder.join("screen.png");
+    hikage::golden::write_png(&picture, &shown).expect("a picture file");
+    println!("screenshot: {}", picture.display());
+    let center = &shown.pixels[(400 * 800 + 400) * 4..][..3];
+    let corner = &shown.pixels[(20 * 800 + 20) * 4..][..3];
+    assert_eq!(corner, [0x9f, 0xb4, 0xc7], "the background stands in the corner");
+    assert!(center[0] > 200 && center[1] < 140, "the red sphere stands in the middle: {center:?}");
+}
+
+fn wait_for(what: &str, mut ready: impl FnMut() -> bool) {
+    let start = Instant::now();
+    while !ready() {
+        assert!(start.elapsed() < Duration::from_secs(120), "waiting for {what}");
+        std::thread::sleep(Duration::from_millis(100));
+    }
+}
+
+/// Cargo builds examples beside the tests.
+fn example(name: &str) -> PathBuf {
+    let deps = std::env::current_exe().expect("the test's own path");
+    let profile = deps.parent().and_then(Path::parent).expect("the profile's folder");
+    profile.join("examples").join(name)
+}
+
+/// Reads the X server's frame buffer: an XWD file, version 7, of 32-bit pixels.
+fn read_screen(path: &Path) -> Option<hikage::scene::Image> {
+    let bytes = fs::read(path).ok()?;
+    let field = |index: usize| Some(u32::from_be_bytes(bytes.get(index * 4..index * 4 + 4)?.try_into().ok()?) as usize);
+    let (header, width, height) = (field(0)?, field(4)?, field(5)?);
+    let (little_endian, line, colors) = (field(7)? == 0, field(12)?, field(19)?);
+    let first = header + colors * 12;
+    let mut pixels = Vec::with_capacity(width * height * 4);
+    for y in 0..height {
+        for texel in bytes.get(first + y * line..)?.get(..width * 4)?.chunks_exact(4) {
+            let [b, g, r] = if little_endian { [texel[0], texel[1], texel[2]] } else { [texel[3], texel[2], texel[1]] };
+            pixels.extend([r, g, b, 255]);
+        }
+    }
+    Some(hikage::scene::Image { width: width as u32, height: height as u32, pixels, ..Default::default() })
+}
