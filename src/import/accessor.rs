@@ -53,15 +53,8 @@ pub(super) struct Accessor<'a> {
 }
 
 /// Names of the element types with rows and columns.
-const KINDS: [(&str, u64, u64); 7] = [
-    ("SCALAR", 1, 1),
-    ("VEC2", 2, 1),
-    ("VEC3", 3, 1),
-    ("VEC4", 4, 1),
-    ("MAT2", 2, 2),
-    ("MAT3", 3, 3),
-    ("MAT4", 4, 4),
-];
+const KINDS: [(&str, u64, u64); 7] =
+    [("SCALAR", 1, 1), ("VEC2", 2, 1), ("VEC3", 3, 1), ("VEC4", 4, 1), ("MAT2", 2, 2), ("MAT3", 3, 3), ("MAT4", 4, 4)];
 
 fn component(json: &Json) -> Result<Component> {
     let code = json.need("componentType")?;
@@ -86,7 +79,10 @@ fn view<'a>(json: &Json, views: &'a [View<'a>]) -> Result<Option<(&'a [u8], Opti
     let offset = json.u64("byteOffset")?.unwrap_or(0);
     let view = views.get(index).ok_or_else(|| json.fault("bufferView is missing"))?;
     let bytes = usize::try_from(offset).ok().and_then(|o| view.bytes.get(o..)).ok_or_else(|| {
-        json.fault(format!("accessor byteOffset {offset} is out of range of its bufferView of {} bytes", view.bytes.len()))
+        json.fault(format!(
+            "accessor byteOffset {offset} is out of range of its bufferView of {} bytes",
+            view.bytes.len()
+        ))
     })?;
     Ok(Some((bytes, view.stride)))
 }
@@ -110,7 +106,9 @@ fn read<'a>(json: &Json, views: &'a [View<'a>], limits: &Limits) -> Result<Acces
         Some((bytes, stride)) => {
             let stride = stride.unwrap_or(packed);
             if stride < packed {
-                return Err(json.fault(format!("found byteStride {stride}, expected at least the element size {packed}")));
+                return Err(
+                    json.fault(format!("found byteStride {stride}, expected at least the element size {packed}"))
+                );
             }
             let needed = needed_bytes(count, stride, packed).ok_or_else(|| json.fault("accessor range overflows"))?;
             if needed > bytes.len() as u64 {
@@ -132,7 +130,11 @@ fn read<'a>(json: &Json, views: &'a [View<'a>], limits: &Limits) -> Result<Acces
 fn element_size(component: Component, rows: u64, columns: u64) -> u64 {
     let column = rows.saturating_mul(component.size());
     // Columns of a matrix start at multiples of 4 bytes.
-    let column = if columns > 1 { column.next_multiple_of(4) } else { column };
+    let column = if columns > 1 {
+        column.next_multiple_of(4)
+    } else {
+        column
+    };
     column.saturating_mul(columns)
 }
 
@@ -150,20 +152,25 @@ fn read_sparse<'a>(sparse: &Json, views: &'a [View<'a>], base: u64, packed: u64)
     }
     let side = |key: &str, size: u64| -> Result<(Json<'_>, &'a [u8])> {
         let json = sparse.need(key)?;
-        let (bytes, stride) = view(&json, views)?.ok_or_else(|| json.fault("bufferView of the sparse data is missing"))?;
+        let (bytes, stride) =
+            view(&json, views)?.ok_or_else(|| json.fault("bufferView of the sparse data is missing"))?;
         if stride.is_some_and(|s| s != size) {
             return Err(json.fault("found a byteStride, expected packed sparse data"));
         }
         let needed = count.checked_mul(size).and_then(|n| usize::try_from(n).ok());
         let bytes = needed.and_then(|n| bytes.get(..n)).ok_or_else(|| {
-            json.fault(format!("sparse {key}: {count} of {size} bytes are out of range of the bufferView, which has {} left", bytes.len()))
+            json.fault(format!(
+                "sparse {key}: {count} of {size} bytes are out of range of the bufferView, which has {} left",
+                bytes.len()
+            ))
         })?;
         Ok((json, bytes))
     };
     let indices_json = sparse.need("indices")?;
     let component = component(&indices_json)?;
     if !matches!(component, Component::U8 | Component::U16 | Component::U32) {
-        return Err(indices_json.fault(format!("found sparse indices of componentType {}, expected unsigned integers", component.name())));
+        return Err(indices_json
+            .fault(format!("found sparse indices of componentType {}, expected unsigned integers", component.name())));
     }
     let (json, bytes) = side("indices", component.size())?;
     let size = usize::try_from(component.size()).unwrap_or(1);
@@ -197,7 +204,9 @@ fn float(bytes: &[u8], component: Component, normalized: bool) -> f32 {
         (Component::I16, &[a, b]) if normalized => (f32::from(i16::from_le_bytes([a, b])) / 32767.0).max(-1.0),
         (Component::I16, &[a, b]) => f32::from(i16::from_le_bytes([a, b])),
         (Component::U16, &[a, b]) if normalized => f32::from(u16::from_le_bytes([a, b])) / 65535.0,
-        (Component::U32, &[a, b, c, d]) if normalized => (f64::from(u32::from_le_bytes([a, b, c, d])) / 4_294_967_295.0) as f32,
+        (Component::U32, &[a, b, c, d]) if normalized => {
+            (f64::from(u32::from_le_bytes([a, b, c, d])) / 4_294_967_295.0) as f32
+        }
         _ => unsigned(bytes) as f32,
     }
 }
@@ -211,7 +220,10 @@ impl Accessor<'_> {
     /// Refuses an accessor of another type or component than the use allows.
     pub(super) fn expect(&self, what: &str, kinds: &[&str], components: &[Component], pointer: &str) -> Result<()> {
         if !kinds.contains(&self.kind) {
-            return Err(Fault::new(pointer, format!("{what}: found accessor type {}, expected {}", self.kind, kinds.join(" or "))));
+            return Err(Fault::new(
+                pointer,
+                format!("{what}: found accessor type {}, expected {}", self.kind, kinds.join(" or ")),
+            ));
         }
         if !components.contains(&self.component) {
             let names: Vec<&str> = components.iter().map(|c| c.name()).collect();
@@ -284,7 +296,10 @@ impl Accessor<'_> {
     }
 
     /// Like [`Self::floats`], with integers always scaled to 0..1: skin weights have no other meaning.
-    pub(super) fn normalized_floats<const N: usize>(&self, elements: impl Iterator<Item = u32>) -> (Vec<[f32; N]>, usize) {
+    pub(super) fn normalized_floats<const N: usize>(
+        &self,
+        elements: impl Iterator<Item = u32>,
+    ) -> (Vec<[f32; N]>, usize) {
         let (mut rows, bad) = self.floats(elements);
         let scale = match (self.component, self.normalized) {
             (Component::U8, false) => 255.0,

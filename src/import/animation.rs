@@ -20,7 +20,12 @@ pub(super) struct Context<'a> {
 }
 
 /// Reads all clips.
-pub(super) fn read_all(root: &Json, cx: &Context, budget: &mut Budget, warnings: &mut Warnings) -> Result<Vec<Animation>> {
+pub(super) fn read_all(
+    root: &Json,
+    cx: &Context,
+    budget: &mut Budget,
+    warnings: &mut Warnings,
+) -> Result<Vec<Animation>> {
     let mut clips = Vec::new();
     for json in root.objects("animations")? {
         let samplers = json.objects("samplers")?;
@@ -44,20 +49,32 @@ fn accessor<'a>(sampler: &Json, key: &str, cx: &'a Context) -> Result<&'a Access
     cx.accessors.get(index).ok_or_else(|| json.fault("accessor is missing"))
 }
 
-fn read_channel(target: &Json, sampler: &Json, cx: &Context, budget: &mut Budget, warnings: &mut Warnings) -> Result<Option<AnimationChannel>> {
+fn read_channel(
+    target: &Json,
+    sampler: &Json,
+    cx: &Context,
+    budget: &mut Budget,
+    warnings: &mut Warnings,
+) -> Result<Option<AnimationChannel>> {
     let path = target.need("path")?.as_str()?;
     if path == "pointer" {
         warnings.add(target.pointer(), "KHR_animation_pointer is not supported: channel skipped");
         return Ok(None);
     }
     if !matches!(path, "translation" | "rotation" | "scale" | "weights") {
-        return Err(target.fault(format!("found path {}, expected translation, rotation, scale or weights", quoted(path))));
+        return Err(
+            target.fault(format!("found path {}, expected translation, rotation, scale or weights", quoted(path)))
+        );
     }
     let interpolation = match sampler.str("interpolation")?.unwrap_or("LINEAR") {
         "LINEAR" => Interpolation::Linear,
         "STEP" => Interpolation::Step,
         "CUBICSPLINE" => Interpolation::CubicSpline,
-        other => return Err(sampler.fault(format!("found interpolation {}, expected LINEAR, STEP or CUBICSPLINE", quoted(other)))),
+        other => {
+            return Err(
+                sampler.fault(format!("found interpolation {}, expected LINEAR, STEP or CUBICSPLINE", quoted(other)))
+            );
+        }
     };
     let input = accessor(sampler, "input", cx)?;
     input.expect("sampler input", &["SCALAR"], &[F32], sampler.pointer())?;
@@ -77,25 +94,41 @@ fn read_channel(target: &Json, sampler: &Json, cx: &Context, budget: &mut Budget
         return Err(input.fault("sampler input: times are not strictly increasing"));
     }
 
-    let per_key = if interpolation == Interpolation::CubicSpline { 3 } else { 1 };
+    let per_key = if interpolation == Interpolation::CubicSpline {
+        3
+    } else {
+        1
+    };
     let expect_count = |values: u64| -> Result<()> {
         let expected = input.count.saturating_mul(per_key).saturating_mul(values);
         if output.count == expected {
             return Ok(());
         }
-        Err(Fault::new(sampler.pointer(), format!("sampler output for {path}: found count {}, expected {expected} for {} keys", output.count, input.count)))
+        Err(Fault::new(
+            sampler.pointer(),
+            format!(
+                "sampler output for {path}: found count {}, expected {expected} for {} keys",
+                output.count, input.count
+            ),
+        ))
     };
     let values = match path {
         "translation" | "scale" => {
             output.expect(&format!("sampler output for {path}"), &["VEC3"], &[F32], sampler.pointer())?;
             expect_count(1)?;
             let rows = output.all_finite::<3>("sampler output")?;
-            if path == "scale" { AnimationValues::Scale(rows) } else { AnimationValues::Translation(rows) }
+            if path == "scale" {
+                AnimationValues::Scale(rows)
+            } else {
+                AnimationValues::Translation(rows)
+            }
         }
         "rotation" => {
             output.expect("sampler output for rotation", &["VEC4"], &[F32, I8, U8, I16, U16], sampler.pointer())?;
             if output.component != F32 && !output.normalized {
-                return Err(output.fault("sampler output for rotation: found integers that are not normalized, expected normalized ones"));
+                return Err(output.fault(
+                    "sampler output for rotation: found integers that are not normalized, expected normalized ones",
+                ));
             }
             expect_count(1)?;
             let mut rows = output.all_finite::<4>("sampler output")?;
@@ -119,10 +152,15 @@ fn read_channel(target: &Json, sampler: &Json, cx: &Context, budget: &mut Budget
 }
 
 /// Makes quaternions unit; those without a direction become the identity.
+#[allow(clippy::arithmetic_side_effects, reason = "float vectors cannot overflow")]
 fn normalize(rows: &mut [[f32; 4]]) {
     for row in rows {
         let q = glam::DQuat::from_array(row.map(f64::from));
         let length = q.length();
-        *row = if length > 1e-12 { (q / length).as_quat().to_array() } else { [0.0, 0.0, 0.0, 1.0] };
+        *row = if length > 1e-12 {
+            (q / length).as_quat().to_array()
+        } else {
+            [0.0, 0.0, 0.0, 1.0]
+        };
     }
 }

@@ -50,7 +50,9 @@ impl<'a> Buffers<'a> {
                 data.push(None);
                 continue;
             } else {
-                return Err(buffer.fault("buffer data missing: found no uri and no GLB BIN chunk, expected one of them"));
+                return Err(
+                    buffer.fault("buffer data missing: found no uri and no GLB BIN chunk, expected one of them")
+                );
             };
             let Some(bytes) = cut(bytes, length) else {
                 return Err(buffer.fault(format!("byteLength is {length}, over the length of the buffer's data")));
@@ -66,14 +68,16 @@ impl<'a> Buffers<'a> {
         let buffer = self.data.get(range.buffer).and_then(Option::as_ref);
         let buffer = buffer.ok_or_else(|| place.fault(format!("buffer {} has no data", range.buffer)))?;
         let end = range.start.checked_add(range.length).filter(|end| *end <= buffer.len() as u64);
-        end.and_then(|end| buffer.get(usize::try_from(range.start).ok()?..usize::try_from(end).ok()?)).ok_or_else(|| {
-            place.fault(format!(
-                "bufferView range of offset {} and length {} is outside the buffer of {} bytes",
-                range.start,
-                range.length,
-                buffer.len()
-            ))
-        })
+        end.and_then(|end| buffer.get(usize::try_from(range.start).ok()?..usize::try_from(end).ok()?)).ok_or_else(
+            || {
+                place.fault(format!(
+                    "bufferView range of offset {} and length {} is outside the buffer of {} bytes",
+                    range.start,
+                    range.length,
+                    buffer.len()
+                ))
+            },
+        )
     }
 
     fn range(&self, place: &Json) -> Result<Range> {

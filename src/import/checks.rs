@@ -14,7 +14,10 @@ pub(super) fn check(scene: &Scene, warnings: &mut Warnings) {
     check_texture_uses(scene, warnings);
     for (index, skin) in scene.skins.iter().enumerate() {
         if skin.joints.len() > 256 {
-            warnings.add(format!("/skins/{index}"), format!("{} joints: fine here, over the limit of many engines", skin.joints.len()));
+            warnings.add(
+                format!("/skins/{index}"),
+                format!("{} joints: fine here, over the limit of many engines", skin.joints.len()),
+            );
         }
     }
     if scene.meshes.iter().all(|m| m.primitives.is_empty()) {
@@ -23,13 +26,15 @@ pub(super) fn check(scene: &Scene, warnings: &mut Warnings) {
 }
 
 /// Faces whose halves share texels cannot carry a face-shadow map or one-sided make-up.
+#[allow(clippy::arithmetic_side_effects, reason = "float vectors cannot overflow")]
 fn check_face_uvs(scene: &Scene, warnings: &mut Warnings) {
     for (index, mesh) in scene.meshes.iter().enumerate() {
         for (part, primitive) in mesh.primitives.iter().enumerate().filter(|(_, p)| p.role == Role::Face) {
             let Some(uv) = primitive.uvs.first() else { continue };
             let (mut positive, mut negative) = (0.0f64, 0.0f64);
             for corners in primitive.indices.as_chunks::<3>().0 {
-                let [a, b, c] = corners.map(|i| glam::Vec2::from_array(uv.get(i as usize).copied().unwrap_or_default()).as_dvec2());
+                let [a, b, c] =
+                    corners.map(|i| glam::Vec2::from_array(uv.get(i as usize).copied().unwrap_or_default()).as_dvec2());
                 let area = (b - a).perp_dot(c - a);
                 if area > 0.0 {
                     positive += area;
@@ -62,10 +67,16 @@ fn check_texture_uses(scene: &Scene, warnings: &mut Warnings) {
         let Some(picture) = scene.images.get(image) else { continue };
         let pointer = format!("/materials/{material}");
         if color.contains(&image) {
-            warnings.add(&pointer, format!("image {} is used as colour (sRGB) and as mask or normal map (linear)", quoted(&picture.name)));
+            warnings.add(
+                &pointer,
+                format!("image {} is used as colour (sRGB) and as mask or normal map (linear)", quoted(&picture.name)),
+            );
         }
         if picture.format == "jpeg" {
-            warnings.add(&pointer, format!("mask or normal map {} is a JPEG: expect blocks in the shading", quoted(&picture.name)));
+            warnings.add(
+                &pointer,
+                format!("mask or normal map {} is a JPEG: expect blocks in the shading", quoted(&picture.name)),
+            );
         }
     }
 }
@@ -84,5 +95,8 @@ fn data_textures(material: &Material) -> impl Iterator<Item = usize> {
         Shading::Unlit => None,
     };
     let outline = material.outline.and_then(|o| o.width_mask);
-    [material.normal_map.map(|n| n.texture), shift, outline, material.uv_animation.mask].into_iter().flatten().map(|t| t.texture)
+    [material.normal_map.map(|n| n.texture), shift, outline, material.uv_animation.mask]
+        .into_iter()
+        .flatten()
+        .map(|t| t.texture)
 }

@@ -32,7 +32,10 @@ fn parse(bytes: &[u8], limits: &Limits) -> Result<Value> {
     serde_json::from_slice(bytes).map_err(|e| {
         let head = bytes.get(..bytes.len().min(12)).unwrap_or_default();
         let head = String::from_utf8_lossy(head).escape_default().to_string();
-        Fault::new("json", format!("not valid JSON: {e}; the text starts with \"{head}\", expected glTF JSON or GLB magic"))
+        Fault::new(
+            "json",
+            format!("not valid JSON: {e}; the text starts with \"{head}\", expected glTF JSON or GLB magic"),
+        )
     })
 }
 
@@ -51,17 +54,20 @@ fn split_glb<'a>(bytes: &'a [u8], limits: &Limits) -> Result<Container<'a>> {
     if length < 20 || length > bytes.len() {
         return Err(Fault::new(
             "header",
-            format!("GLB length field says {length} bytes, the file has {}, expected the same (at least 20)", bytes.len()),
+            format!(
+                "GLB length field says {length} bytes, the file has {}, expected the same (at least 20)",
+                bytes.len()
+            ),
         ));
     }
     // Bytes after the declared length belong to no chunk.
     let body = bytes.get(..length).unwrap_or(bytes);
-    let (mut json, mut bin, mut at, mut first) = (None, None, 12usize, true);
+    let (mut json, mut bin, mut at, mut number) = (None, None, 12usize, 0usize);
     while at < body.len() {
         let fault = |message: String| Fault::new(format!("chunk at byte {at}"), message);
         let (Some(size), Some(kind)) = (word(body, at), word(body, at.saturating_add(4))) else {
             // A few padding bytes at the end hold no chunk header.
-            if first {
+            if number == 0 {
                 return Err(fault("GLB chunk header truncated".into()));
             }
             break;
@@ -69,20 +75,24 @@ fn split_glb<'a>(bytes: &'a [u8], limits: &Limits) -> Result<Container<'a>> {
         let start = at.saturating_add(8);
         let end = start.checked_add(size as usize).filter(|e| *e <= body.len());
         let data = end.and_then(|e| body.get(start..e)).ok_or_else(|| {
-            fault(format!("GLB chunk length says {size} bytes, the file ends after {}", body.len().saturating_sub(start)))
+            fault(format!(
+                "GLB chunk length says {size} bytes, the file ends after {}",
+                body.len().saturating_sub(start)
+            ))
         })?;
         match kind {
             JSON_CHUNK if json.is_some() => return Err(fault("duplicate JSON chunk, expected one".into())),
-            JSON_CHUNK if !first => return Err(fault("JSON chunk is not the first".into())),
+            JSON_CHUNK if number > 0 => return Err(fault("JSON chunk is not the first".into())),
             BIN_CHUNK if bin.is_some() => return Err(fault("unexpected duplicate BIN chunk, expected one".into())),
-            _ if first && kind != JSON_CHUNK => {
+            BIN_CHUNK if number > 1 => return Err(fault("unexpected BIN chunk, expected it to be the second".into())),
+            _ if number == 0 && kind != JSON_CHUNK => {
                 return Err(fault(format!("unexpected chunk type {kind:#010x}, expected the first chunk to be JSON")));
             }
             JSON_CHUNK => json = Some(data),
             BIN_CHUNK => bin = Some(data),
             _ => {}
         }
-        first = false;
+        number = number.saturating_add(1);
         at = end.unwrap_or(usize::MAX);
     }
     let json = json.ok_or_else(|| Fault::new("header", "GLB has no JSON chunk"))?;

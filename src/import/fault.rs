@@ -32,7 +32,11 @@ impl Fault {
 
 /// Checks a count against a limit.
 pub(super) fn within(pointer: &str, found: u64, limit: u64, unit: &'static str) -> Result<()> {
-    if found > limit { Err(Fault::Limit { pointer: shown(pointer), found, limit, unit }) } else { Ok(()) }
+    if found > limit {
+        Err(Fault::Limit { pointer: shown(pointer), found, limit, unit })
+    } else {
+        Ok(())
+    }
 }
 
 /// Text from a file made safe to print: control characters escaped, shortened.

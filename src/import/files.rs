@@ -86,7 +86,8 @@ fn decode_data(rest: &str) -> std::result::Result<Vec<u8>, String> {
 /// Reads a file below `folder`; symbolic links that lead outside are refused.
 pub(super) fn read_below(folder: Option<&Path>, relative: &Path, pointer: &str, limits: &Limits) -> Result<Vec<u8>> {
     let shown = quoted(&relative.display().to_string());
-    let folder = folder.ok_or_else(|| Fault::new(pointer, format!("uri {shown}: the model has no folder to read from")))?;
+    let folder =
+        folder.ok_or_else(|| Fault::new(pointer, format!("uri {shown}: the model has no folder to read from")))?;
     let fault = |message: String| Fault::new(pointer, format!("uri {shown}: {message}"));
     let no_file = |e: std::io::Error| fault(format!("no such file: {e}"));
     let root = folder.canonicalize().map_err(no_file)?;
@@ -97,12 +98,9 @@ pub(super) fn read_below(folder: Option<&Path>, relative: &Path, pointer: &str, 
     read_regular(&path, limits).map_err(|e| match e {
         ReadFault::Io(e) => fault(e.to_string()),
         ReadFault::NotRegular => fault("not a regular file".into()),
-        ReadFault::TooLarge(found) => Fault::Limit {
-            pointer: pointer.to_owned(),
-            found,
-            limit: limits.file_bytes,
-            unit: "bytes",
-        },
+        ReadFault::TooLarge(found) => {
+            Fault::Limit { pointer: pointer.to_owned(), found, limit: limits.file_bytes, unit: "bytes" }
+        }
     })
 }
 
@@ -128,6 +126,7 @@ pub(super) fn read_regular(path: &Path, limits: &Limits) -> std::result::Result<
     // The file may grow between the check and the reading, and files under /proc claim a length of 0.
     let most = limits.file_bytes.saturating_add(1);
     File::open(path).and_then(|f| f.take(most).read_to_end(&mut bytes)).map_err(ReadFault::Io)?;
-    within("file", bytes.len() as u64, limits.file_bytes, "bytes").map_err(|_| ReadFault::TooLarge(bytes.len() as u64))?;
+    within("file", bytes.len() as u64, limits.file_bytes, "bytes")
+        .map_err(|_| ReadFault::TooLarge(bytes.len() as u64))?;
     Ok(bytes)
 }

@@ -41,7 +41,12 @@ pub(super) struct Context<'a> {
 }
 
 /// Builds a primitive; `None` where it has nothing to draw. `material` is left at 0 where the source has none.
-pub(super) fn build(source: &Source, cx: &Context, budget: &mut Budget, warnings: &mut Warnings) -> Result<Option<Primitive>> {
+pub(super) fn build(
+    source: &Source,
+    cx: &Context,
+    budget: &mut Budget,
+    warnings: &mut Warnings,
+) -> Result<Option<Primitive>> {
     let Some(position) = source.position.and_then(|p| cx.accessors.get(p)) else {
         warnings.add(&source.pointer, "primitive without POSITION: skipped");
         return Ok(None);
@@ -56,7 +61,11 @@ pub(super) fn build(source: &Source, cx: &Context, budget: &mut Budget, warnings
         return Ok(None);
     }
     // Flat normals belong to a face, so no two faces can share a vertex.
-    let (mut used, mut indices) = if source.normal.is_none() { unshared(corners)? } else { compact(&corners) };
+    let (mut used, mut indices) = if source.normal.is_none() {
+        unshared(corners)?
+    } else {
+        compact(&corners)
+    };
     charge(source, cx, used.len(), indices.len(), budget)?;
 
     let positions = positions(position, &used)?;
@@ -72,7 +81,9 @@ pub(super) fn build(source: &Source, cx: &Context, budget: &mut Budget, warnings
         } else if let Some(uv) = primitive.uvs.get(map.texture.uv_set as usize) {
             let made = tangents::generate(&primitive.positions, &primitive.normals, uv, &mut indices);
             // Vertices on a seam where the texture is mirrored exist once for each side.
-            let copy = |list: &mut Vec<u32>| list.extend(made.copies.iter().filter_map(|v| used.get(*v as usize).copied()).collect::<Vec<_>>());
+            let copy = |list: &mut Vec<u32>| {
+                list.extend(made.copies.iter().filter_map(|v| used.get(*v as usize).copied()).collect::<Vec<_>>())
+            };
             let mut extended = used.clone();
             copy(&mut extended);
             for vertex in &made.copies {
@@ -95,7 +106,13 @@ pub(super) fn build(source: &Source, cx: &Context, budget: &mut Budget, warnings
 }
 
 /// Corners of the triangles as indices of the accessors; triangles without area by index are left out.
-fn triangles(source: &Source, cx: &Context, count: u64, budget: &mut Budget, warnings: &mut Warnings) -> Result<Vec<u32>> {
+fn triangles(
+    source: &Source,
+    cx: &Context,
+    count: u64,
+    budget: &mut Budget,
+    warnings: &mut Warnings,
+) -> Result<Vec<u32>> {
     let vertices = u32::try_from(count).map_err(|_| Fault::new(&source.pointer, "count of vertices is too large"))?;
     let accessor = source.indices.and_then(|i| cx.accessors.get(i));
     let corners = accessor.map_or(count, |a| a.count);
@@ -108,7 +125,8 @@ fn triangles(source: &Source, cx: &Context, count: u64, budget: &mut Budget, war
             let corners = u32::try_from(corners).map_err(|_| accessor.fault("count of indices is too large"))?;
             let list = accessor.unsigned::<1>(0..corners).into_flattened();
             if let Some(bad) = list.iter().find(|i| **i >= vertices) {
-                return Err(accessor.fault(format!("found vertex index {bad}, expected an index below the vertex count {vertices}")));
+                return Err(accessor
+                    .fault(format!("found vertex index {bad}, expected an index below the vertex count {vertices}")));
             }
             list
         }
@@ -230,7 +248,10 @@ fn uvs(source: &Source, cx: &Context, used: &[u32], warnings: &mut Warnings) -> 
                 rows
             }
             None => {
-                warnings.add(&source.pointer, format!("TEXCOORD_{set} is missing, but the material's textures need it: zeros are used"));
+                warnings.add(
+                    &source.pointer,
+                    format!("TEXCOORD_{set} is missing, but the material's textures need it: zeros are used"),
+                );
                 vec![[0.0; 2]; used.len()]
             }
         })
@@ -246,18 +267,26 @@ fn colors(source: &Source, cx: &Context, used: &[u32]) -> Vec<[f32; 4]> {
         }
     }
     // White changes nothing and is what many exporters write.
-    if rows.iter().all(|c| *c == [1.0; 4]) { Vec::new() } else { rows }
+    if rows.iter().all(|c| *c == [1.0; 4]) {
+        Vec::new()
+    } else {
+        rows
+    }
 }
 
 fn influences(source: &Source, cx: &Context, used: &[u32], warnings: &mut Warnings) -> Result<Influences> {
-    let (Some(joint_count), false) = (cx.joints, source.influences.is_empty()) else { return Ok(Influences::default()) };
+    let (Some(joint_count), false) = (cx.joints, source.influences.is_empty()) else {
+        return Ok(Influences::default());
+    };
     let mut vertices: Vec<Vec<(u16, f32)>> = vec![Vec::new(); used.len()];
     let mut odd = false;
     for &(joints, weights) in &source.influences {
         let (Some(joints), Some(weights)) = (cx.accessors.get(joints), cx.accessors.get(weights)) else { continue };
         let (weight_rows, bad) = weights.normalized_floats::<4>(used.iter().copied());
         odd |= bad > 0;
-        for ((vertex, joint_row), weight_row) in vertices.iter_mut().zip(joints.unsigned::<4>(used.iter().copied())).zip(weight_rows) {
+        for ((vertex, joint_row), weight_row) in
+            vertices.iter_mut().zip(joints.unsigned::<4>(used.iter().copied())).zip(weight_rows)
+        {
             for (joint, weight) in joint_row.into_iter().zip(weight_row) {
                 odd |= weight < 0.0;
                 if weight <= 0.0 {
@@ -303,7 +332,13 @@ fn influences(source: &Source, cx: &Context, used: &[u32], warnings: &mut Warnin
     Ok(out)
 }
 
-fn morphs(source: &Source, cx: &Context, used: &[u32], budget: &mut Budget, warnings: &mut Warnings) -> Result<Vec<MorphTarget>> {
+fn morphs(
+    source: &Source,
+    cx: &Context,
+    used: &[u32],
+    budget: &mut Budget,
+    warnings: &mut Warnings,
+) -> Result<Vec<MorphTarget>> {
     let mut out = Vec::with_capacity(source.targets.len());
     for target in &source.targets {
         let position = target.position.and_then(|a| cx.accessors.get(a));

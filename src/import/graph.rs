@@ -29,7 +29,13 @@ pub(super) struct Counts {
 
 impl Graph {
     /// Reads the nodes. `turn` adds a root that turns everything about +Y by half a turn.
-    pub(super) fn read(root: &Json, counts: Counts, turn: bool, limits: &Limits, warnings: &mut Warnings) -> Result<Self> {
+    pub(super) fn read(
+        root: &Json,
+        counts: Counts,
+        turn: bool,
+        limits: &Limits,
+        warnings: &mut Warnings,
+    ) -> Result<Self> {
         let json = root.objects("nodes")?;
         within("/nodes", json.len() as u64, limits.nodes, "nodes")?;
         let (children, parents) = family(&json)?;
@@ -172,13 +178,19 @@ fn read_transform(json: &Json, warnings: &mut Warnings) -> Result<Transform> {
     let scale = json.floats("scale")?;
     if let Some(matrix) = json.floats::<16>("matrix")? {
         if translation.is_some() || rotation.is_some() || scale.is_some() {
-            return Err(json.fault("found a matrix together with translation, rotation or scale, expected one or the other"));
+            return Err(
+                json.fault("found a matrix together with translation, rotation or scale, expected one or the other")
+            );
         }
         return Ok(decompose(&Mat4::from_cols_array(&matrix), json, warnings));
     }
     let rotation = rotation.map_or(Quat::IDENTITY, Quat::from_array);
     let unit = rotation.as_dquat();
-    let unit = if unit.length_squared() > 0.0 { unit.normalize().as_quat() } else { Quat::IDENTITY };
+    let unit = if unit.length_squared() > 0.0 {
+        unit.normalize().as_quat()
+    } else {
+        Quat::IDENTITY
+    };
     if (rotation.length_squared() - 1.0).abs() > 0.01 {
         warnings.add(json.pointer(), "rotation is not of unit length: normalised");
     }

@@ -10,9 +10,9 @@ use image::{DynamicImage, ImageDecoder, codecs};
 use crate::scene::Image;
 use crate::{Error, Result};
 
+use super::Limits;
 use super::fault::{Fault, within};
 use super::files::{ReadFault, read_regular};
-use super::Limits;
 
 const PNG_SIGNATURE: &[u8] = b"\x89PNG\r\n\x1a\n";
 
@@ -71,7 +71,13 @@ pub(super) struct Probe<'a> {
 pub(super) fn probe<'a>(pointer: &str, bytes: &'a [u8], limits: &Limits) -> super::fault::Result<Probe<'a>> {
     let probe = if bytes.starts_with(PNG_SIGNATURE) {
         let header = clean_png(bytes).map_err(|m| Fault::new(pointer, format!("PNG image: {m}")))?;
-        Probe { format: Format::Png, bytes: header.bytes.into(), width: header.width, height: header.height, bits: header.bits }
+        Probe {
+            format: Format::Png,
+            bytes: header.bytes.into(),
+            width: header.width,
+            height: header.height,
+            bits: header.bits,
+        }
     } else if bytes.starts_with(b"\xFF\xD8") {
         let size = guarded(|| codecs::jpeg::JpegDecoder::new(Cursor::new(bytes)).map(|d| d.dimensions()));
         let (width, height) = size.map_err(|m| Fault::new(pointer, format!("JPEG image: {m}")))?;
@@ -84,11 +90,17 @@ pub(super) fn probe<'a>(pointer: &str, bytes: &'a [u8], limits: &Limits) -> supe
         let head = bytes.get(..bytes.len().min(8)).unwrap_or_default().escape_ascii();
         return Err(Fault::new(
             pointer,
-            format!("image of {} bytes starts with \"{head}\", expected the signature of a PNG, JPEG or WebP", bytes.len()),
+            format!(
+                "image of {} bytes starts with \"{head}\", expected the signature of a PNG, JPEG or WebP",
+                bytes.len()
+            ),
         ));
     };
     if probe.width == 0 || probe.height == 0 {
-        return Err(Fault::new(pointer, format!("image size is {} x {}, expected at least 1 x 1", probe.width, probe.height)));
+        return Err(Fault::new(
+            pointer,
+            format!("image size is {} x {}, expected at least 1 x 1", probe.width, probe.height),
+        ));
     }
     let largest = u64::from(probe.width.max(probe.height));
     within(pointer, largest, u64::from(limits.image_size), "pixels of image width or height (dimension limit)")?;
@@ -120,7 +132,9 @@ impl Probe<'_> {
         caps.max_alloc = Some(self.texture_bytes().saturating_mul(4).saturating_add(1 << 20));
         let cursor = Cursor::new(&*self.bytes);
         let (name, pixels) = match self.format {
-            Format::Png => ("png", guarded(|| DynamicImage::from_decoder(codecs::png::PngDecoder::with_limits(cursor, caps)?))),
+            Format::Png => {
+                ("png", guarded(|| DynamicImage::from_decoder(codecs::png::PngDecoder::with_limits(cursor, caps)?)))
+            }
             Format::Jpeg => ("jpeg", guarded(|| limited(codecs::jpeg::JpegDecoder::new(cursor)?, caps))),
             Format::Webp => ("webp", guarded(|| limited(codecs::webp::WebPDecoder::new(cursor)?, caps))),
         };
@@ -177,7 +191,10 @@ fn clean_png(bytes: &[u8]) -> std::result::Result<CleanPng, String> {
         let body = after.get(4..).and_then(|b| b.get(..length));
         let whole = length.checked_add(12).and_then(|n| rest.get(..n));
         let (Some(body), Some(whole)) = (body, whole) else {
-            return Err(format!("chunk {name} has length {length}, the data is truncated after {}", after.len().saturating_sub(4)));
+            return Err(format!(
+                "chunk {name} has length {length}, the data is truncated after {}",
+                after.len().saturating_sub(4)
+            ));
         };
         match (kind, &header) {
             (b"IHDR", None) => {
@@ -187,7 +204,8 @@ fn clean_png(bytes: &[u8]) -> std::result::Result<CleanPng, String> {
                 if length != 13 {
                     return Err(format!("IHDR header has {length} bytes, expected 13"));
                 }
-                header = Some((u32::from_be_bytes([w0, w1, w2, w3]), u32::from_be_bytes([h0, h1, h2, h3]), bits, color));
+                header =
+                    Some((u32::from_be_bytes([w0, w1, w2, w3]), u32::from_be_bytes([h0, h1, h2, h3]), bits, color));
                 out.extend_from_slice(whole);
             }
             (_, None) => return Err(format!("first chunk is {name}, expected IHDR")),

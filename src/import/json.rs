@@ -41,7 +41,11 @@ impl<'a> Json<'a> {
     }
 
     fn expect_object(self) -> Result<Self> {
-        if self.value.is_object() { Ok(self) } else { Err(self.expected("an object")) }
+        if self.value.is_object() {
+            Ok(self)
+        } else {
+            Err(self.expected("an object"))
+        }
     }
 
     /// The value under a key, if there is one.
@@ -104,7 +108,11 @@ impl<'a> Json<'a> {
     pub(super) fn as_f32(&self) -> Result<f32> {
         let number = self.value.as_f64().ok_or_else(|| self.expected("a number"))?;
         let number = number as f32;
-        if number.is_finite() { Ok(number) } else { Err(self.expected("a finite number")) }
+        if number.is_finite() {
+            Ok(number)
+        } else {
+            Err(self.expected("a finite number"))
+        }
     }
 
     pub(super) fn as_str(&self) -> Result<&'a str> {
@@ -131,10 +139,9 @@ impl<'a> Json<'a> {
     /// An index below `count`.
     pub(super) fn as_index(&self, count: usize, of: &str) -> Result<usize> {
         let index = self.as_u64()?;
-        usize::try_from(index)
-            .ok()
-            .filter(|i| *i < count)
-            .ok_or_else(|| self.fault(format!("found index {index}, expected an index below {count}, the number of {of}")))
+        usize::try_from(index).ok().filter(|i| *i < count).ok_or_else(|| {
+            self.fault(format!("found index {index}, expected an index below {count}, the number of {of}"))
+        })
     }
 
     pub(super) fn u64(&self, key: &str) -> Result<Option<u64>> {

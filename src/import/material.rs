@@ -17,7 +17,12 @@ pub(super) struct Materials {
 }
 
 /// Reads all materials. `vrm0` is the `VRM` extension of a VRM 0.x file.
-pub(super) fn read_all(root: &Json, vrm0: Option<&Json>, textures: &mut Textures, warnings: &mut Warnings) -> Result<Materials> {
+pub(super) fn read_all(
+    root: &Json,
+    vrm0: Option<&Json>,
+    textures: &mut Textures,
+    warnings: &mut Warnings,
+) -> Result<Materials> {
     let json = root.objects("materials")?;
     let properties = mtoon0::read_properties(vrm0, json.len(), warnings);
     let mut out = Materials::default();
@@ -58,7 +63,8 @@ fn read(json: &Json, vrm0: Option<&Properties>, textures: &mut Textures, warning
 fn read_common(json: &Json, material: &mut Material, textures: &mut Textures, warnings: &mut Warnings) -> Result<()> {
     if let Some(pbr) = json.object("pbrMetallicRoughness")? {
         let color = pbr.floats("baseColorFactor")?.unwrap_or([1.0; 4]);
-        material.base = Base { color: color.map(|c| c.max(0.0)), texture: textures.info(&pbr, "baseColorTexture", warnings)? };
+        material.base =
+            Base { color: color.map(|c| c.max(0.0)), texture: textures.info(&pbr, "baseColorTexture", warnings)? };
         check_info(&pbr, "metallicRoughnessTexture", textures)?;
     }
     check_info(json, "occlusionTexture", textures)?;
@@ -150,14 +156,21 @@ fn warn_about_shade(materials: &[Material], warnings: &mut Warnings) {
         let texture = |t: Option<TextureRef>| t.map(|t| t.texture);
         if toon.shade_color.iter().all(|c| *c < 1e-4) && !lit_is_black {
             black.push((index, quoted(&material.name)));
-        } else if toon.shade_color == [r, g, b] && texture(toon.shade_texture) == texture(material.base.texture) && !lit_is_black {
+        } else if toon.shade_color == [r, g, b]
+            && texture(toon.shade_texture) == texture(material.base.texture)
+            && !lit_is_black
+        {
             same.push((index, quoted(&material.name)));
         }
     }
-    for (list, what) in [(black, "shade colour is black"), (same, "shade colour is the lit colour: no shade will show")] {
+    for (list, what) in [(black, "shade colour is black"), (same, "shade colour is the lit colour: no shade will show")]
+    {
         if let Some((first, _)) = list.first() {
             let names: Vec<_> = list.iter().take(8).map(|(_, n)| n.as_str()).collect();
-            warnings.add(format!("/materials/{first}"), format!("{what}, in {} materials: {}", list.len(), names.join(", ")));
+            warnings.add(
+                format!("/materials/{first}"),
+                format!("{what}, in {} materials: {}", list.len(), names.join(", ")),
+            );
         }
     }
 }

@@ -36,19 +36,31 @@ impl Header {
             "ATTRIBUTES" => Mode::Attributes,
             "TRIANGLES" => Mode::Triangles,
             "INDICES" => Mode::Indices,
-            other => return Err(json.fault(format!("found mode {}, expected ATTRIBUTES, TRIANGLES or INDICES", super::fault::quoted(other)))),
+            other => {
+                return Err(json.fault(format!(
+                    "found mode {}, expected ATTRIBUTES, TRIANGLES or INDICES",
+                    super::fault::quoted(other)
+                )));
+            }
         };
         let filter = match json.str("filter")?.unwrap_or("NONE") {
             "NONE" => Filter::None,
             "OCTAHEDRAL" => Filter::Octahedral,
             "QUATERNION" => Filter::Quaternion,
             "EXPONENTIAL" => Filter::Exponential,
-            other => return Err(json.fault(format!("found filter {}, expected NONE, OCTAHEDRAL, QUATERNION or EXPONENTIAL", super::fault::quoted(other)))),
+            other => {
+                return Err(json.fault(format!(
+                    "found filter {}, expected NONE, OCTAHEDRAL, QUATERNION or EXPONENTIAL",
+                    super::fault::quoted(other)
+                )));
+            }
         };
         let count = json.need("count")?.as_u64()?;
         let stride = json.need("byteStride")?.as_u64()?;
         let fits = match (mode, filter) {
-            (Mode::Attributes, Filter::None | Filter::Exponential) => stride.is_multiple_of(4) && (4..=256).contains(&stride),
+            (Mode::Attributes, Filter::None | Filter::Exponential) => {
+                stride.is_multiple_of(4) && (4..=256).contains(&stride)
+            }
             (Mode::Attributes, Filter::Octahedral) => stride == 4 || stride == 8,
             (Mode::Attributes, Filter::Quaternion) => stride == 8,
             (_, Filter::None) => stride == 2 || stride == 4,
@@ -81,10 +93,18 @@ pub(super) fn decode(json: &Json, header: &Header, source: &[u8]) -> Result<Vec<
         return Ok(Vec::new());
     }
     let decoded = match (header.mode, header.stride) {
-        (Mode::Triangles, 2) => codec::decode_index_buffer::<u16>(source, count).map(|v| bytemuck::cast_slice(&v).to_vec()),
-        (Mode::Triangles, _) => codec::decode_index_buffer::<u32>(source, count).map(|v| bytemuck::cast_slice(&v).to_vec()),
-        (Mode::Indices, 2) => codec::decode_index_sequence::<u16>(source, count).map(|v| bytemuck::cast_slice(&v).to_vec()),
-        (Mode::Indices, _) => codec::decode_index_sequence::<u32>(source, count).map(|v| bytemuck::cast_slice(&v).to_vec()),
+        (Mode::Triangles, 2) => {
+            codec::decode_index_buffer::<u16>(source, count).map(|v| bytemuck::cast_slice(&v).to_vec())
+        }
+        (Mode::Triangles, _) => {
+            codec::decode_index_buffer::<u32>(source, count).map(|v| bytemuck::cast_slice(&v).to_vec())
+        }
+        (Mode::Indices, 2) => {
+            codec::decode_index_sequence::<u16>(source, count).map(|v| bytemuck::cast_slice(&v).to_vec())
+        }
+        (Mode::Indices, _) => {
+            codec::decode_index_sequence::<u32>(source, count).map(|v| bytemuck::cast_slice(&v).to_vec())
+        }
         (Mode::Attributes, stride) => attributes(source, count, stride, header.filter),
     };
     decoded.map_err(|e| json.fault(format!("compressed data is corrupt: {e}")))

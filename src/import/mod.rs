@@ -7,7 +7,13 @@
 //! Errors name the file, the place in it as a JSON pointer, what was found and what was expected. Faults that only make
 //! the picture worse become [`Scene::warnings`].
 
-#![deny(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::indexing_slicing, clippy::arithmetic_side_effects)]
+#![deny(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    clippy::indexing_slicing,
+    clippy::arithmetic_side_effects
+)]
 
 mod accessor;
 mod animation;
@@ -91,7 +97,8 @@ pub fn load_with(path: impl AsRef<Path>, limits: &Limits) -> Result<Scene> {
 /// The bytes are malformed, require an unsupported extension, or are over a limit.
 pub fn load_bytes(name: &str, bytes: &[u8], folder: Option<&Path>, limits: &Limits) -> Result<Scene> {
     let mut scene = read(bytes, folder, limits).map_err(|fault| fault.into_error(name))?;
-    scene.source.file = Path::new(name).file_name().map_or_else(|| name.to_owned(), |f| f.to_string_lossy().into_owned());
+    scene.source.file =
+        Path::new(name).file_name().map_or_else(|| name.to_owned(), |f| f.to_string_lossy().into_owned());
     Ok(scene)
 }
 
@@ -167,7 +174,9 @@ fn read_source(root: &Json, warnings: &mut Warnings) -> fault::Result<Source> {
     {
         return Err(asset.fault(format!("found minVersion {}, expected at most 2.0", quoted(least))));
     }
-    let names = |key: &str| -> fault::Result<Vec<String>> { root.array(key)?.iter().map(|n| Ok(n.as_str()?.to_owned())).collect() };
+    let names = |key: &str| -> fault::Result<Vec<String>> {
+        root.array(key)?.iter().map(|n| Ok(n.as_str()?.to_owned())).collect()
+    };
     let (used, required) = (names("extensionsUsed")?, names("extensionsRequired")?);
     if let Some(unknown) = required.iter().find(|n| !SUPPORTED.contains(&n.as_str())) {
         return Err(Fault::new(
@@ -213,7 +222,9 @@ fn read_mesh(
         let first = json.list("primitives").into_iter().next();
         names = first.map(|p| p.at("extras").list("targetNames")).unwrap_or_default();
     }
-    let name = |i: usize| names.get(i).and_then(|n| n.as_str().ok()).map_or_else(|| i.to_string(), |n| n.chars().take(1000).collect());
+    let name = |i: usize| {
+        names.get(i).and_then(|n| n.as_str().ok()).map_or_else(|| i.to_string(), |n| n.chars().take(1000).collect())
+    };
     mesh.morph_names = (0..targets).map(name).collect();
     Ok(mesh)
 }
@@ -244,7 +255,10 @@ fn fill_morph_weights(scene: &mut Scene, meshes: &[Json], warnings: &mut Warning
             node.morph_weights = defaults.get(mesh).cloned().unwrap_or_default();
         }
         if !node.morph_weights.is_empty() && node.morph_weights.len() != targets {
-            warnings.add(format!("/meshes/{mesh}"), format!("number of morph weights is not that of the {targets} targets (node {index})"));
+            warnings.add(
+                format!("/meshes/{mesh}"),
+                format!("number of morph weights is not that of the {targets} targets (node {index})"),
+            );
         }
         node.morph_weights.resize(targets, 0.0);
     }

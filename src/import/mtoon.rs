@@ -11,12 +11,20 @@ use super::warnings::Warnings;
 pub(super) const WIDEST_OUTLINE: f32 = 10.0;
 
 /// Reads the extension into the material.
-pub(super) fn apply(ext: &Json, material: &mut Material, textures: &mut Textures, warnings: &mut Warnings) -> Result<()> {
+pub(super) fn apply(
+    ext: &Json,
+    material: &mut Material,
+    textures: &mut Textures,
+    warnings: &mut Warnings,
+) -> Result<()> {
     material.origin = Origin::Mtoon1;
-    let color = |key: &str, default: [f32; 3]| -> Result<[f32; 3]> { Ok(ext.floats(key)?.unwrap_or(default).map(|c: f32| c.max(0.0))) };
+    let color = |key: &str, default: [f32; 3]| -> Result<[f32; 3]> {
+        Ok(ext.floats(key)?.unwrap_or(default).map(|c: f32| c.max(0.0)))
+    };
     let unit = |key: &str, default: f32| -> Result<f32> { Ok(ext.f32(key)?.unwrap_or(default).clamp(0.0, 1.0)) };
 
-    material.alpha.write_depth = material.alpha.mode == AlphaMode::Blend && ext.bool("transparentWithZWrite")?.unwrap_or(false);
+    material.alpha.write_depth =
+        material.alpha.mode == AlphaMode::Blend && ext.bool("transparentWithZWrite")?.unwrap_or(false);
     material.alpha.queue_offset = queue_offset(ext, material)?;
 
     let toon = Toon::default();
@@ -33,7 +41,8 @@ pub(super) fn apply(ext: &Json, material: &mut Material, textures: &mut Textures
 
     let matcap = textures.info(ext, "matcapTexture", warnings)?;
     let matcap_color = color("matcapFactor", [1.0; 3])?;
-    material.matcap = matcap.filter(|_| matcap_color != [0.0; 3]).map(|t| Matcap { texture: t.texture, color: matcap_color });
+    material.matcap =
+        matcap.filter(|_| matcap_color != [0.0; 3]).map(|t| Matcap { texture: t.texture, color: matcap_color });
 
     let rim = Rim::default();
     material.rim = Rim {

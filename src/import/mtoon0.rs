@@ -6,8 +6,8 @@ use std::f32::consts::TAU;
 
 use crate::color::linear_from_srgb;
 use crate::material::{
-    AlphaMode, Base, Emission, Matcap, Material, NormalMap, Origin, Outline, OutlineWidth, Rim, Shading, TextureRef, Toon,
-    UvAnimation, UvTransform,
+    AlphaMode, Base, Emission, Matcap, Material, NormalMap, Origin, Outline, OutlineWidth, Rim, Shading, TextureRef,
+    Toon, UvAnimation, UvTransform,
 };
 
 use super::fault::{Result, quoted};
@@ -37,12 +37,19 @@ pub(super) struct Properties<'a> {
 }
 
 /// Reads the entries that replace glTF materials; `None` where the glTF material holds.
-pub(super) fn read_properties<'a>(vrm0: Option<&Json<'a>>, materials: usize, warnings: &mut Warnings) -> Vec<Option<Properties<'a>>> {
+pub(super) fn read_properties<'a>(
+    vrm0: Option<&Json<'a>>,
+    materials: usize,
+    warnings: &mut Warnings,
+) -> Vec<Option<Properties<'a>>> {
     let mut list: Vec<Option<Properties>> = Vec::new();
     let Some(vrm0) = vrm0 else { return list };
     for (index, json) in vrm0.list("materialProperties").into_iter().enumerate() {
         if index >= materials {
-            warnings.add(json.pointer(), format!("more materialProperties than the {materials} materials: the rest is ignored"));
+            warnings.add(
+                json.pointer(),
+                format!("more materialProperties than the {materials} materials: the rest is ignored"),
+            );
             break;
         }
         let shader = match json.text("shader") {
@@ -105,7 +112,12 @@ fn order_queues(list: &mut [Option<Properties>]) {
 }
 
 /// Fills the material from the entry.
-pub(super) fn apply(p: &Properties, material: &mut Material, textures: &mut Textures, warnings: &mut Warnings) -> Result<bool> {
+pub(super) fn apply(
+    p: &Properties,
+    material: &mut Material,
+    textures: &mut Textures,
+    warnings: &mut Warnings,
+) -> Result<bool> {
     let floats = p.json.at("floatProperties");
     let number = |key: &str, default: f32| floats.f32_or(key, default);
     material.alpha.mode = p.mode;
@@ -113,7 +125,8 @@ pub(super) fn apply(p: &Properties, material: &mut Material, textures: &mut Text
     material.alpha.queue_offset = p.queue_offset;
     material.alpha.cutoff = number("_Cutoff", 0.5).max(0.0);
 
-    let mut texture = TextureReader { json: p.json.at("textureProperties"), transform: transform(&p.json), textures, warnings };
+    let mut texture =
+        TextureReader { json: p.json.at("textureProperties"), transform: transform(&p.json), textures, warnings };
     let [r, g, b, a] = vector(&p.json, "_Color", [1.0; 4]);
     let [r, g, b] = [r, g, b].map(linear_from_srgb);
     let main = texture.get("_MainTex")?;
@@ -180,7 +193,11 @@ fn outline(json: &Json, floats: &Json, width_mask: Option<TextureRef>) -> Option
         _ => return None,
     };
     let mixed = floats.f32_or("_OutlineColorMode", 0.0) == 1.0;
-    let lighting_mix = if mixed { floats.f32_or("_OutlineLightingMix", 1.0).clamp(0.0, 1.0) } else { 0.0 };
+    let lighting_mix = if mixed {
+        floats.f32_or("_OutlineLightingMix", 1.0).clamp(0.0, 1.0)
+    } else {
+        0.0
+    };
     Some(Outline { width, width_mask, color: srgb(json, "_OutlineColor", [0.0; 4]), lighting_mix })
 }
 

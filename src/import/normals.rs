@@ -1,5 +1,7 @@
 //! Normals that the file lacks: flat ones, smooth ones, and those of the outline.
 
+#![allow(clippy::arithmetic_side_effects, reason = "float vectors cannot overflow; integers use checked methods")]
+
 use std::collections::HashMap;
 
 use glam::{DVec3, Vec3};
@@ -88,7 +90,11 @@ pub(super) fn fill_outline(primitives: &mut [Primitive]) {
         let normals = primitive.positions.iter().zip(&primitive.normals).map(|(position, shading)| {
             // Two-sided sheets modelled as two layers cancel out: each layer keeps its own normal then.
             let sum = sums.get(&key(*position)).copied().unwrap_or_default();
-            if sum.length() > 1e-3 { sum.normalize().as_vec3().to_array() } else { *shading }
+            if sum.length() > 1e-3 {
+                sum.normalize().as_vec3().to_array()
+            } else {
+                *shading
+            }
         });
         primitive.outline_normals = normals.collect();
     }

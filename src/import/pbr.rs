@@ -29,7 +29,8 @@ pub(super) fn apply(json: &Json, material: &mut Material) -> Result<()> {
     });
     if metallic > 0.5 && !masked {
         // Metal has no diffuse light of its own: a rim of its colour stands for the reflected surroundings.
-        material.rim = Rim { color: [r, g, b].map(|c| c * 0.25 * metallic), fresnel_power: 3.0, lift: 0.05, ..Rim::default() };
+        material.rim =
+            Rim { color: [r, g, b].map(|c| c * 0.25 * metallic), fresnel_power: 3.0, lift: 0.05, ..Rim::default() };
     }
     Ok(())
 }

@@ -46,7 +46,11 @@ pub(super) struct Source {
 /// Reads and checks the primitives of a mesh.
 pub(super) fn read(mesh: &Json, accessors: &[Accessor], materials: usize, limits: &Limits) -> Result<Vec<Source>> {
     mesh.need("primitives")?;
-    let sources = mesh.objects("primitives")?.iter().map(|p| read_one(p, accessors, materials, limits)).collect::<Result<Vec<_>>>()?;
+    let sources = mesh
+        .objects("primitives")?
+        .iter()
+        .map(|p| read_one(p, accessors, materials, limits))
+        .collect::<Result<Vec<_>>>()?;
     let targets = sources.first().map_or(0, |s| s.targets.len());
     if let Some(other) = sources.iter().find(|s| s.targets.len() != targets) {
         return Err(super::fault::Fault::new(
@@ -75,7 +79,10 @@ impl Attributes<'_> {
         if accessor.count != count {
             return Err(super::fault::Fault::new(
                 pointer,
-                format!("attribute {name}: found accessor count {}, expected {count} as in the other attributes", accessor.count),
+                format!(
+                    "attribute {name}: found accessor count {}, expected {count} as in the other attributes",
+                    accessor.count
+                ),
             ));
         }
         Ok(Some(index))

@@ -1,6 +1,8 @@
 //! Guesses what each mesh part of a character is: from names in the conventions of English, Japanese and Chinese authors
 //! and of VRoid Studio, then checked against bones and geometry, which do not lie.
 
+#![allow(clippy::arithmetic_side_effects, reason = "float vectors cannot overflow; integers use checked methods")]
+
 use std::collections::BTreeSet;
 
 use glam::{Mat4, Vec3};
@@ -19,18 +21,40 @@ const WORDS: &[Words] = &[
     Words {
         role: Role::Lash,
         whole: &["lash", "lashes"],
-        part: &["eyelash", "eyeline", "eyeextra", "matuge", "matsuge", "まつげ", "まつ毛", "マツゲ", "睫", "アイライン"],
-    },
-    Words { role: Role::Brow, whole: &["mayu", "brow", "brows"], part: &["facebrow", "eyebrow", "mayuge", "眉", "まゆ", "マユ"] },
-    Words {
-        role: Role::Accessory,
-        whole: &["hat", "cap", "horn", "horns", "acc", "gear", "belt", "metal", "plastic", "halo", "crown", "tail", "wing", "wings"],
         part: &[
-            "glass", "megane", "眼鏡", "眼镜", "メガネ", "めがね", "earring", "accessor", "ribbon", "necklace", "backpack", "weapon", "sword",
-            "headphone", "飾", "饰", "アクセ", "リボン", "帽", "耳环", "ピアス", "角",
+            "eyelash",
+            "eyeline",
+            "eyeextra",
+            "matuge",
+            "matsuge",
+            "まつげ",
+            "まつ毛",
+            "マツゲ",
+            "睫",
+            "アイライン",
         ],
     },
-    Words { role: Role::EyeWhite, whole: &["sclera"], part: &["eyewhite", "eye_white", "whiteeye", "shirome", "sirome", "白目", "眼白"] },
+    Words {
+        role: Role::Brow,
+        whole: &["mayu", "brow", "brows"],
+        part: &["facebrow", "eyebrow", "mayuge", "眉", "まゆ", "マユ"],
+    },
+    Words {
+        role: Role::Accessory,
+        whole: &[
+            "hat", "cap", "horn", "horns", "acc", "gear", "belt", "metal", "plastic", "halo", "crown", "tail", "wing",
+            "wings",
+        ],
+        part: &[
+            "glass", "megane", "眼鏡", "眼镜", "メガネ", "めがね", "earring", "accessor", "ribbon", "necklace",
+            "backpack", "weapon", "sword", "headphone", "飾", "饰", "アクセ", "リボン", "帽", "耳环", "ピアス", "角",
+        ],
+    },
+    Words {
+        role: Role::EyeWhite,
+        whole: &["sclera"],
+        part: &["eyewhite", "eye_white", "whiteeye", "shirome", "sirome", "白目", "眼白"],
+    },
     Words {
         role: Role::Eye,
         whole: &["eye", "eyes", "iris", "pupil", "pupils", "hitomi"],
@@ -44,19 +68,58 @@ const WORDS: &[Words] = &[
     Words {
         role: Role::HairFront,
         whole: &["bang", "bangs", "fringe", "ahoge"],
-        part: &["hairfront", "fronthair", "hair_front", "front_hair", "maegami", "前髪", "前发", "前髮", "刘海", "瀏海", "アホ毛"],
-    },
-    Words { role: Role::Hair, whole: &["kami", "ponytail", "twintail", "braid"], part: &["hair", "髪", "髮", "头发", "ヘア"] },
-    Words { role: Role::Face, whole: &["face", "kao"], part: &["face", "顔", "颜", "脸", "臉", "かお", "フェイス"] },
-    Words {
-        role: Role::Cloth,
-        whole: &["wear", "tops", "bottoms", "coat", "suit", "tie", "sock", "socks", "boots", "shoe", "shoes", "pants", "fuku", "huku", "kutu", "kutsu"],
         part: &[
-            "cloth", "dress", "skirt", "shirt", "jacket", "sleeve", "uniform", "onepiece", "apron", "costume", "fabric", "stocking", "glove",
-            "sweater", "hoodie", "outfit", "服", "衣", "裙", "スカート", "靴", "鞋", "裤", "袖", "スーツ",
+            "hairfront", "fronthair", "hair_front", "front_hair", "maegami", "前髪", "前发", "前髮", "刘海", "瀏海",
+            "アホ毛",
         ],
     },
-    Words { role: Role::Skin, whole: &["skin", "body", "hada", "karada"], part: &["肌", "身体", "皮膚", "皮肤", "ボディ"] },
+    Words {
+        role: Role::Hair,
+        whole: &["kami", "ponytail", "twintail", "braid"],
+        part: &["hair", "髪", "髮", "头发", "ヘア"],
+    },
+    Words {
+        role: Role::Face, whole: &["face", "kao"], part: &["face", "顔", "颜", "脸", "臉", "かお", "フェイス"]
+    },
+    Words {
+        role: Role::Cloth,
+        whole: &[
+            "wear", "tops", "bottoms", "coat", "suit", "tie", "sock", "socks", "boots", "shoe", "shoes", "pants",
+            "fuku", "huku", "kutu", "kutsu",
+        ],
+        part: &[
+            "cloth",
+            "dress",
+            "skirt",
+            "shirt",
+            "jacket",
+            "sleeve",
+            "uniform",
+            "onepiece",
+            "apron",
+            "costume",
+            "fabric",
+            "stocking",
+            "glove",
+            "sweater",
+            "hoodie",
+            "outfit",
+            "服",
+            "衣",
+            "裙",
+            "スカート",
+            "靴",
+            "鞋",
+            "裤",
+            "袖",
+            "スーツ",
+        ],
+    },
+    Words {
+        role: Role::Skin,
+        whole: &["skin", "body", "hada", "karada"],
+        part: &["肌", "身体", "皮膚", "皮肤", "ボディ"],
+    },
 ];
 
 /// Lower-case words of a name; capitals after small letters start a word, as in `HairBack`.
@@ -87,7 +150,9 @@ pub(super) fn from_name(name: &str) -> Option<Role> {
     if vroid && joined.contains("_cloth") {
         return Some(Role::Cloth);
     }
-    let states = |w: &&Words| w.part.iter().any(|p| joined.contains(p)) || words.iter().any(|word| w.whole.contains(&word.as_str()));
+    let states = |w: &&Words| {
+        w.part.iter().any(|p| joined.contains(p)) || words.iter().any(|word| w.whole.contains(&word.as_str()))
+    };
     WORDS.iter().find(states).map(|w| w.role)
 }
 
@@ -120,7 +185,8 @@ pub(super) fn assign(scene: &mut Scene) {
                 alone.then(|| from_name(&mesh.name).or_else(|| from_name(node_name))).flatten()
             });
             let (Some(head), Some(carrier)) = (&head, carrier) else { return named.unwrap_or_default() };
-            let is_driven = mesh.morph_names.iter().enumerate().any(|(t, _)| driven.contains(&(index, t)) && moves(primitive, t));
+            let is_driven =
+                mesh.morph_names.iter().enumerate().any(|(t, _)| driven.contains(&(index, t)) && moves(primitive, t));
             judge(scene, &world, head, mesh, primitive, carrier, named, is_driven)
         });
         roles.push(list.collect());
@@ -155,7 +221,8 @@ fn find_head(scene: &Scene, world: &[Mat4]) -> Option<Head> {
         }
         set
     };
-    let eyes: Vec<usize> = [HumanBone::LeftEye, HumanBone::RightEye].iter().filter_map(|b| scene.bone_node(*b)).collect();
+    let eyes: Vec<usize> =
+        [HumanBone::LeftEye, HumanBone::RightEye].iter().filter_map(|b| scene.bone_node(*b)).collect();
     let place = |n: usize| world.get(n).map(|m| m.w_axis.truncate());
     let origin = place(node)?;
     let offset = scene.character.as_ref()?.look_at.map_or(Vec3::ZERO, |l| l.offset_from_head);
@@ -195,10 +262,16 @@ fn judge(
 ) -> Role {
     let on_head = share(scene, primitive, carrier, &head.nodes);
     match named {
-        Some(Role::Eye | Role::EyeWhite | Role::Lash | Role::Brow | Role::Mouth | Role::Face) if on_head < 0.3 => Role::Accessory,
+        Some(Role::Eye | Role::EyeWhite | Role::Lash | Role::Brow | Role::Mouth | Role::Face) if on_head < 0.3 => {
+            Role::Accessory
+        }
         Some(Role::Hair | Role::HairFront) => {
             let front = in_front_of_face(scene, world, head, primitive, carrier);
-            if named == Some(Role::HairFront) || front { Role::HairFront } else { Role::Hair }
+            if named == Some(Role::HairFront) || front {
+                Role::HairFront
+            } else {
+                Role::Hair
+            }
         }
         Some(Role::Skin) if on_head > 0.6 && (is_driven || mesh.primitives.len() > 1) => Role::Face,
         Some(role) => role,

@@ -102,7 +102,11 @@ fn read_shape(json: &Json) -> Option<ColliderShape> {
     let radius = |s: &Json| s.f32_or("radius", 0.0).max(0.0);
     let [sphere, capsule, plane] = ["sphere", "capsule", "plane"].map(|k| json.at(k));
     if sphere.is_object() {
-        return Some(ColliderShape::Sphere { offset: offset(&sphere), radius: radius(&sphere), inside: sphere.flag("inside") });
+        return Some(ColliderShape::Sphere {
+            offset: offset(&sphere),
+            radius: radius(&sphere),
+            inside: sphere.flag("inside"),
+        });
     }
     if capsule.is_object() {
         return Some(ColliderShape::Capsule {

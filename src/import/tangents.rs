@@ -4,6 +4,8 @@
 //! is mirrored is split in two, since a mean of opposite signs means nothing. Splitting every differing corner instead
 //! would grow the mesh for differences that normal maps do not show.
 
+#![allow(clippy::arithmetic_side_effects, reason = "float vectors cannot overflow; integers use checked methods")]
+
 use bevy_mikktspace::{Geometry, TangentSpace};
 use glam::{Vec3, Vec4};
 
@@ -59,7 +61,12 @@ impl Geometry for Mesh<'_> {
 }
 
 /// Makes tangents; corners of split vertices are renumbered in `indices`.
-pub(super) fn generate(positions: &[[f32; 3]], normals: &[[f32; 3]], uvs: &[[f32; 2]], indices: &mut [u32]) -> Tangents {
+pub(super) fn generate(
+    positions: &[[f32; 3]],
+    normals: &[[f32; 3]],
+    uvs: &[[f32; 2]],
+    indices: &mut [u32],
+) -> Tangents {
     let corners = vec![None; indices.len()];
     let mut mesh = Mesh { positions, normals, uvs, indices, corners };
     if bevy_mikktspace::generate_tangents(&mut mesh).is_err() {
@@ -77,7 +84,14 @@ pub(super) fn generate(positions: &[[f32; 3]], normals: &[[f32; 3]], uvs: &[[f32
     let mut copy_of = vec![u32::MAX; positions.len()];
     for (vertex, ([plus, minus], slot)) in sums.iter().zip(&mut copy_of).enumerate() {
         let (has_plus, has_minus) = (*plus != Vec3::ZERO, *minus != Vec3::ZERO);
-        tangents.push(if has_plus || !has_minus { plus.extend(1.0) } else { minus.extend(-1.0) }.to_array());
+        tangents.push(
+            if has_plus || !has_minus {
+                plus.extend(1.0)
+            } else {
+                minus.extend(-1.0)
+            }
+            .to_array(),
+        );
         if has_plus && has_minus {
             *slot = u32::try_from(positions.len().saturating_add(copies.len())).unwrap_or(u32::MAX);
             copies.push(u32::try_from(vertex).unwrap_or(u32::MAX));
@@ -103,7 +117,8 @@ pub(super) fn repaired(mut tangents: Vec<[f32; 4]>, normals: &[[f32; 3]]) -> Vec
     for (tangent, normal) in tangents.iter_mut().zip(normals) {
         let given = Vec4::from_array(*tangent);
         let direction = super::normals::unit(given.truncate());
-        let direction = direction.unwrap_or_else(|| Vec3::from_array(*normal).try_normalize().unwrap_or(Vec3::Z).any_orthonormal_vector());
+        let direction = direction
+            .unwrap_or_else(|| Vec3::from_array(*normal).try_normalize().unwrap_or(Vec3::Z).any_orthonormal_vector());
         *tangent = direction.extend(if given.w < 0.0 { -1.0 } else { 1.0 }).to_array();
     }
     tangents

@@ -103,7 +103,8 @@ impl<'a> Textures<'a> {
             transform.scale = ext.floats("scale")?.unwrap_or(transform.scale);
             uv_set = ext.u64("texCoord")?.unwrap_or(uv_set);
         }
-        let uv_set = u32::try_from(uv_set).map_err(|_| info.fault(format!("found texCoord {uv_set}, expected a small integer")))?;
+        let uv_set = u32::try_from(uv_set)
+            .map_err(|_| info.fault(format!("found texCoord {uv_set}, expected a small integer")))?;
         Ok(Some(TextureRef { texture, uv_set, transform }))
     }
 

@@ -6,8 +6,8 @@ use glam::{Quat, Vec3};
 
 use crate::color::linear_from_srgb;
 use crate::scene::{
-    Character, Collider, ColliderShape, ColorBind, ColorTarget, Expression, HumanBone, LookAt, Meta, MorphBind, Node, Spring,
-    SpringJoint, Transform, UvBind,
+    Character, Collider, ColliderShape, ColorBind, ColorTarget, Expression, HumanBone, LookAt, Meta, MorphBind, Node,
+    Spring, SpringJoint, Transform, UvBind,
 };
 
 use super::fault::Limits;
@@ -22,7 +22,10 @@ pub(super) fn read(ext: &Json, cx: &Context, warnings: &mut Warnings) -> Charact
         match (bone(json.text("bone")), cx.graph.maybe_node(&json, "node")) {
             (Some(bone), Some(node)) => {
                 if character.bones.contains_key(&bone) {
-                    warnings.add(json.pointer(), format!("humanoid bone {} is given twice: the first is kept", bone.name()));
+                    warnings.add(
+                        json.pointer(),
+                        format!("humanoid bone {} is given twice: the first is kept", bone.name()),
+                    );
                 }
                 character.bones.entry(bone).or_insert(node);
             }
@@ -105,7 +108,8 @@ fn preset(name: &str) -> Option<&'static str> {
 fn expression(json: &Json, cx: &Context, warnings: &mut Warnings) -> Expression {
     let preset = preset(json.text("presetName"));
     let name = preset.map_or_else(|| json.text("name").chars().take(1000).collect(), str::to_owned);
-    let mut out = Expression { name, preset: preset.is_some(), is_binary: json.flag("isBinary"), ..Expression::default() };
+    let mut out =
+        Expression { name, preset: preset.is_some(), is_binary: json.flag("isBinary"), ..Expression::default() };
     for bind in json.list("binds") {
         let before = out.morphs.len();
         for node in nodes_of_mesh(&bind, cx) {
@@ -159,7 +163,11 @@ fn material_value(material: usize, json: &Json, out: &mut Expression) -> bool {
         _ => return false,
     };
     // As in the materials: emission is linear already, the other colours are sRGB.
-    let [r, g, b] = if target == ColorTarget::EmissionColor { [x, y, z] } else { [x, y, z].map(|c| linear_from_srgb(c.max(0.0))) };
+    let [r, g, b] = if target == ColorTarget::EmissionColor {
+        [x, y, z]
+    } else {
+        [x, y, z].map(|c| linear_from_srgb(c.max(0.0)))
+    };
     out.colors.push(ColorBind { material, target, value: [r, g, b, w] });
     true
 }
@@ -188,7 +196,14 @@ const TAIL_M: f32 = 0.07;
 
 /// Reads colliders and springs. Chains follow first children; each further child starts a chain of its own. The imagined
 /// tail of VRM 0.x becomes a node.
-pub(super) fn read_springs(ext: &Json, cx: &Context, nodes: &mut Vec<Node>, character: &mut Character, limits: &Limits, warnings: &mut Warnings) {
+pub(super) fn read_springs(
+    ext: &Json,
+    cx: &Context,
+    nodes: &mut Vec<Node>,
+    character: &mut Character,
+    limits: &Limits,
+    warnings: &mut Warnings,
+) {
     let json = ext.at("secondaryAnimation");
     let mut groups: Vec<Vec<usize>> = Vec::new();
     for group in json.list("colliderGroups") {
@@ -198,7 +213,8 @@ pub(super) fn read_springs(ext: &Json, cx: &Context, nodes: &mut Vec<Node>, char
                 let offset = vector(&collider.at("offset"));
                 let offset = Vec3::new(offset.x, offset.y, -offset.z);
                 list.push(character.colliders.len());
-                let shape = ColliderShape::Sphere { offset, radius: collider.f32_or("radius", 0.0).max(0.0), inside: false };
+                let shape =
+                    ColliderShape::Sphere { offset, radius: collider.f32_or("radius", 0.0).max(0.0), inside: false };
                 character.colliders.push(Collider { node, shape });
             }
         } else {
@@ -249,7 +265,8 @@ pub(super) fn read_springs(ext: &Json, cx: &Context, nodes: &mut Vec<Node>, char
                     warnings.add(json.pointer(), "too many spring chains and colliders: the rest is left out");
                     return;
                 }
-                let mut joints: Vec<SpringJoint> = chain.iter().map(|node| SpringJoint { node: *node, ..joint }).collect();
+                let mut joints: Vec<SpringJoint> =
+                    chain.iter().map(|node| SpringJoint { node: *node, ..joint }).collect();
                 if let Some(tail) = chain.last().and_then(|last| tail_of(*last, nodes, &mut tails)) {
                     joints.push(SpringJoint { node: tail, ..joint });
                 }
@@ -294,6 +311,7 @@ fn chains(root: usize, children: &[Vec<usize>], taken: &mut [bool]) -> Vec<Vec<u
 }
 
 /// The node that stands for the tail behind a leaf, made on first use.
+#[allow(clippy::arithmetic_side_effects, reason = "float vectors cannot overflow")]
 fn tail_of(leaf: usize, nodes: &mut Vec<Node>, tails: &mut BTreeMap<usize, usize>) -> Option<usize> {
     if let Some(known) = tails.get(&leaf) {
         return Some(*known);

@@ -5,8 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use glam::Vec3;
 
 use crate::scene::{
-    Character, ColorBind, ColorTarget, Expression, ExpressionOverride, FirstPerson, HumanBone, LookAt, Meta, MorphBind, RangeMap,
-    UvBind,
+    Character, ColorBind, ColorTarget, Expression, ExpressionOverride, FirstPerson, HumanBone, LookAt, Meta, MorphBind,
+    RangeMap, UvBind,
 };
 
 use super::fault::quoted;
@@ -44,8 +44,8 @@ const REQUIRED: [HumanBone; 15] = [
 
 /// Presets of VRM 1.0.
 const PRESETS: [&str; 18] = [
-    "happy", "angry", "sad", "relaxed", "surprised", "aa", "ih", "ou", "ee", "oh", "blink", "blinkLeft", "blinkRight", "lookUp",
-    "lookDown", "lookLeft", "lookRight", "neutral",
+    "happy", "angry", "sad", "relaxed", "surprised", "aa", "ih", "ou", "ee", "oh", "blink", "blinkLeft", "blinkRight",
+    "lookUp", "lookDown", "lookLeft", "lookRight", "neutral",
 ];
 
 /// Reads the extension.
@@ -105,7 +105,14 @@ fn meta(json: &Json) -> Meta {
     let text = |key: &str| json.text(key).to_owned();
     let list = |key: &str| json.list(key).iter().filter_map(|v| v.as_str().ok()).map(str::to_owned).collect();
     const READ: [&str; 9] = [
-        "name", "version", "authors", "copyrightInformation", "contactInformation", "references", "licenseUrl", "thumbnailImage",
+        "name",
+        "version",
+        "authors",
+        "copyrightInformation",
+        "contactInformation",
+        "references",
+        "licenseUrl",
+        "thumbnailImage",
         "thirdPartyLicenses",
     ];
     let rest = json.entries().unwrap_or_default().into_iter().filter(|(key, _)| !READ.contains(key));
@@ -140,7 +147,9 @@ fn expression(name: &str, preset: bool, json: &Json, cx: &Context, warnings: &mu
         let node = cx.graph.maybe_node(&bind, "node");
         let targets = node.map_or(0, |n| node_targets(cx, n));
         match (node, bind.maybe_index("index", targets)) {
-            (Some(node), Some(target)) => out.morphs.push(MorphBind { node, target, weight: bind.f32_or("weight", 1.0) }),
+            (Some(node), Some(target)) => {
+                out.morphs.push(MorphBind { node, target, weight: bind.f32_or("weight", 1.0) })
+            }
             _ => warnings.add(bind.pointer(), "expression drives a morph target that does not exist: bind skipped"),
         }
     }
@@ -208,6 +217,10 @@ pub(super) fn range_map(json: &Json, input: &str, output: &str, uses_bones: bool
     let output_scale = json.f32_or(output, if uses_bones { 10.0 } else { 1.0 });
     RangeMap {
         input_max_rad: json.f32_or(input, 90.0).max(0.0).to_radians(),
-        output_scale: if uses_bones { output_scale.to_radians() } else { output_scale },
+        output_scale: if uses_bones {
+            output_scale.to_radians()
+        } else {
+            output_scale
+        },
     }
 }
