@@ -1,0 +1,87 @@
+//! `hikage bench`.
+
+use std::path::PathBuf;
+
+use hikage::bench::{BenchOptions, run as measure};
+
+use crate::args::{self, ViewName};
+use crate::failure::Failure;
+use crate::output::{Table, bytes, print, print_json};
+use crate::setup;
+use crate::spinner::Spinner;
+
+/// Arguments of `hikage bench`.
+#[derive(clap::Args)]
+#[command(after_help = "\
+The floor is the same meshes with the same samples, drawn unlit with one texture: what no shading can go below.
+Example: hikage bench girl.vrm --size 512x512 --instances 20")]
+pub(crate) struct Args {
+    /// Model: .vrm, .glb or .gltf.
+    model: PathBuf,
+    /// Size of the picture, pixels.
+    #[arg(long, value_name = "WxH", default_value = "1024x1024", value_parser = args::size)]
+    size: [u32; 2],
+    /// Copies of the character.
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=4096))]
+    instances: u32,
+    /// Measured frames.
+    #[arg(long, value_name = "N", default_value_t = 30, value_parser = clap::value_parser!(u32).range(1..=10000))]
+    frames: u32,
+    /// Samples a pixel.
+    #[arg(long, value_name = "1|4", default_value = "4", value_parser = args::samples)]
+    samples: u32,
+    /// What fills the picture.
+    #[arg(long, value_enum, default_value_t = ViewName::Portrait)]
+    view: ViewName,
+    /// Adapter, by a part of its name (`hikage adapters`).
+    #[arg(long, value_name = "NAME")]
+    adapter: Option<String>,
+    /// Print JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+pub(crate) fn run(args: &Args) -> Result<(), Failure> {
+    let spinner = Spinner::new();
+    spinner.step("loading the model");
+    let scene = hikage::import::load(&args.model)?;
+    spinner.step("opening the adapter");
+    let gpu = setup::gpu(args.adapter.as_deref())?;
+    spinner.step(format!("measuring {} frames", args.frames));
+    let options = BenchOptions {
+        size: args.size,
+        instances: args.instances,
+        frames: args.frames,
+        samples: args.samples,
+        view: args.view.into(),
+    };
+    let report = measure(&gpu, &scene, &options)?;
+    drop(spinner);
+    if args.json {
+        return print_json(&report);
+    }
+
+    let mut times = Table::new(&["ms a frame", "median", "min", "p95"]);
+    for (name, ms) in [("frame", &report.frame_ms), ("floor", &report.floor_ms)] {
+        times.row([name.into(), format!("{:.3}", ms.median), format!("{:.3}", ms.min), format!("{:.3}", ms.p95)]);
+    }
+    let mut passes = Table::new(&["pass", "ms"]);
+    for pass in &report.passes {
+        passes.row([pass.name.to_string(), format!("{:.3}", pass.ms)]);
+    }
+    print(&format!(
+        "{}: {} x {}, {} samples, {} instances, {} frames\n{}  frame / floor {:.2}\n{}  {} draws, {} triangles, {} on the GPU\n",
+        report.adapter,
+        args.size[0],
+        args.size[1],
+        args.samples,
+        args.instances,
+        args.frames,
+        times.text(),
+        report.floor_ratio,
+        passes.text(),
+        report.draws,
+        report.triangles,
+        bytes(report.gpu_bytes),
+    ))
+}
