@@ -57,17 +57,14 @@ pub fn read_png(path: impl AsRef<Path>) -> Result<Image> {
     let decoded = ImageReader::with_format(std::io::Cursor::new(bytes), ImageFormat::Png).decode().map_err(|e| {
         Error::Input { path: path.display().to_string(), pointer: "png".into(), message: e.to_string() }
     })?;
-    let source_bits = if decoded.color().bytes_per_pixel() > decoded.color().channel_count() { 16 } else { 8 };
+    let source_bits = if decoded.color().bytes_per_pixel() > decoded.color().channel_count() {
+        16
+    } else {
+        8
+    };
     let rgba = decoded.into_rgba8();
     let name = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
-    Ok(Image {
-        name,
-        width: rgba.width(),
-        height: rgba.height(),
-        pixels: rgba.into_raw(),
-        format: "png",
-        source_bits,
-    })
+    Ok(Image { name, width: rgba.width(), height: rgba.height(), pixels: rgba.into_raw(), format: "png", source_bits })
 }
 
 /// Writes a file through a temporary one in the same folder, so that no reader ever sees half of it.
@@ -91,7 +88,11 @@ pub fn write_atomic(path: impl AsRef<Path>, bytes: &[u8]) -> Result<()> {
     let (Some(folder), Some(file)) = (path.parent(), path.file_name()) else {
         return Err(Error::Io { path: named.display().to_string(), reason: "is not the name of a file".into() });
     };
-    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let folder = if folder.as_os_str().is_empty() {
+        Path::new(".")
+    } else {
+        folder
+    };
     if !folder.is_dir() {
         let reason = format!("the folder {} does not exist", folder.display());
         return Err(Error::Io { path: named.display().to_string(), reason });
@@ -101,9 +102,8 @@ pub fn write_atomic(path: impl AsRef<Path>, bytes: &[u8]) -> Result<()> {
     temp_name.push(file);
     temp_name.push(format!(".{}-{}.tmp", std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed)));
     let temp: PathBuf = folder.join(temp_name);
-    let written = fs::File::create_new(&temp)
-        .and_then(|mut file| file.write_all(bytes))
-        .and_then(|()| fs::rename(&temp, &path));
+    let written =
+        fs::File::create_new(&temp).and_then(|mut file| file.write_all(bytes)).and_then(|()| fs::rename(&temp, &path));
     written.map_err(|e| {
         let _ = fs::remove_file(&temp);
         Error::io(named, &e)

@@ -139,7 +139,11 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     drop(spinner);
     outcome.rows.sort_by(|a, b| b.toon.off_share.total_cmp(&a.toon.off_share).then(a.name.cmp(&b.name)));
 
-    if args.json { print_json(&outcome)? } else { print(&text(&outcome))? }
+    if args.json {
+        print_json(&outcome)?
+    } else {
+        print(&text(&outcome))?
+    }
     match outcome.failed.len() {
         0 => Ok(()),
         n => Err(Failure::input(format!("{n} of {} references could not be compared", files.len()))),
@@ -341,8 +345,7 @@ fn json_files(root: &Path) -> Result<Vec<PathBuf>, Failure> {
     let mut found = Vec::new();
     let mut open = vec![root.to_path_buf()];
     while let Some(folder) = open.pop() {
-        let entries =
-            std::fs::read_dir(&folder).map_err(|e| Failure::input(format!("{}: {e}", folder.display())))?;
+        let entries = std::fs::read_dir(&folder).map_err(|e| Failure::input(format!("{}: {e}", folder.display())))?;
         for entry in entries.flatten() {
             let path = entry.path();
             // Links to folders are not followed: they may lead round in circles.

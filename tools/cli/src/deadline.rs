@@ -16,8 +16,11 @@ pub(crate) fn start(seconds: f64) {
             return;
         }
         let message = format!("not done after {seconds} s (--timeout)");
-        let failure =
-            if USES_GPU.load(Ordering::SeqCst) { Failure::gpu(message) } else { Failure::input(message) };
+        let failure = if USES_GPU.load(Ordering::SeqCst) {
+            Failure::gpu(message)
+        } else {
+            Failure::input(message)
+        };
         failure.print();
         std::process::exit(failure.status());
     });

@@ -34,7 +34,11 @@ impl Failure {
 
 impl From<hikage::Error> for Failure {
     fn from(error: hikage::Error) -> Self {
-        if error.is_gpu() { Self::gpu(error.to_string()) } else { Self::input(error.to_string()) }
+        if error.is_gpu() {
+            Self::gpu(error.to_string())
+        } else {
+            Self::input(error.to_string())
+        }
     }
 }
 

@@ -21,7 +21,7 @@ use crate::failure::Failure;
 
 /// Draws anime characters (VRM, glTF) as toon pictures, with or without a GPU.
 #[derive(Parser)]
-#[command(version, max_term_width = 100, arg_required_else_help = true, after_help = AFTER_HELP)]
+#[command(name = "hikage", version, max_term_width = 100, arg_required_else_help = true, after_help = AFTER_HELP)]
 struct Program {
     #[command(subcommand)]
     command: Command,
@@ -61,7 +61,11 @@ enum Command {
 
 fn main() {
     let program = Program::parse();
-    let level = if program.verbose { tracing_subscriber::filter::LevelFilter::DEBUG } else { ERRORS_ONLY };
+    let level = if program.verbose {
+        tracing_subscriber::filter::LevelFilter::DEBUG
+    } else {
+        ERRORS_ONLY
+    };
     tracing_subscriber::fmt()
         .with_max_level(level)
         .with_writer(anstream::stderr)

@@ -49,7 +49,8 @@ impl Table {
         let width = |c: usize| self.rows.iter().filter_map(|r| r.get(c)).map(|t| columns_of(t)).max().unwrap_or(0);
         let widths: Vec<usize> = (0..columns).map(width).collect();
         let is_number = |t: &str| t.is_empty() || t == "-" || t.starts_with(|c: char| c.is_ascii_digit() || c == '-');
-        let right: Vec<bool> = (0..columns).map(|c| body.iter().all(|r| r.get(c).is_none_or(|t| is_number(t)))).collect();
+        let right: Vec<bool> =
+            (0..columns).map(|c| body.iter().all(|r| r.get(c).is_none_or(|t| is_number(t)))).collect();
 
         let dim = Style::new().dimmed();
         let mut out = String::new();
@@ -58,10 +59,18 @@ impl Table {
             for (c, cell) in row.iter().enumerate() {
                 let pad = " ".repeat(widths[c] - columns_of(cell));
                 line += "  ";
-                line += &if right[c] { format!("{pad}{cell}") } else { format!("{cell}{pad}") };
+                line += &if right[c] {
+                    format!("{pad}{cell}")
+                } else {
+                    format!("{cell}{pad}")
+                };
             }
             let line = line.trim_end();
-            out += &if index == 0 { format!("{dim}{line}{dim:#}\n") } else { format!("{line}\n") };
+            out += &if index == 0 {
+                format!("{dim}{line}{dim:#}\n")
+            } else {
+                format!("{line}\n")
+            };
         }
         out
     }
@@ -93,8 +102,10 @@ fn clip(text: &str) -> String {
 
 /// Columns on a terminal: East Asian letters and emoji take two.
 fn columns_of(text: &str) -> usize {
-    let wide = |c: char| matches!(c as u32, 0x1100..=0x115f | 0x2e80..=0xa4cf | 0xac00..=0xd7a3 | 0xf900..=0xfaff
-        | 0xfe30..=0xfe6f | 0xff00..=0xff60 | 0xffe0..=0xffe6 | 0x1f300..=0x1faff | 0x20000..=0x3fffd);
+    let wide = |c: char| {
+        matches!(c as u32, 0x1100..=0x115f | 0x2e80..=0xa4cf | 0xac00..=0xd7a3 | 0xf900..=0xfaff
+        | 0xfe30..=0xfe6f | 0xff00..=0xff60 | 0xffe0..=0xffe6 | 0x1f300..=0x1faff | 0x20000..=0x3fffd)
+    };
     text.chars().map(|c| 1 + usize::from(wide(c))).sum()
 }
 

@@ -193,21 +193,12 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         let report = Report {
             model: args.model.display().to_string(),
             output: args.output.display().to_string(),
-            adapter: AdapterReport {
-                name: &info.name,
-                backend: &info.backend,
-                kind: &info.kind,
-                driver: &info.driver,
-            },
+            adapter: AdapterReport { name: &info.name, backend: &info.backend, kind: &info.kind, driver: &info.driver },
             options: options_report(args, &view),
             ms,
             draws: gpu_scene.draws,
             triangles: scene.triangle_count(),
-            gpu_bytes: MemoryReport {
-                textures: memory.textures,
-                geometry: memory.geometry,
-                targets: memory.targets,
-            },
+            gpu_bytes: MemoryReport { textures: memory.textures, geometry: memory.geometry, targets: memory.targets },
             warnings: &scene.warnings,
         };
         write_atomic(path, output::json(&report)?.as_bytes())?;
@@ -222,13 +213,15 @@ fn view(args: &Args, shot: &Shot, scene: &hikage::scene::Scene) -> Result<View, 
     let framed = View::framed(scene, framing, args.yaw.unwrap_or(0.0).to_radians(), size);
     let mut view = framed.clone();
     view.background = Background::Color(hikage::color::Srgb([0x80; 3]));
-    shot.apply(&mut view)?;
+    shot.apply(&mut view).map_err(|what| {
+        let file = args.shot.as_deref().unwrap_or(Path::new(""));
+        Failure::input(format!("{}: {what}", file.display()))
+    })?;
     if args.view.is_some() || args.yaw.is_some() {
         view.camera = framed.camera;
     }
     if let Some([yaw, pitch]) = args.light.map(|angles| angles.map(f32::to_radians)) {
-        view.lights.directional.to_light =
-            Vec3::new(yaw.sin() * pitch.cos(), pitch.sin(), yaw.cos() * pitch.cos());
+        view.lights.directional.to_light = Vec3::new(yaw.sin() * pitch.cos(), pitch.sin(), yaw.cos() * pitch.cos());
     }
     if let Some(background) = &args.background {
         view.background = background.clone();
@@ -263,11 +256,7 @@ fn options_report<'a>(args: &'a Args, view: &View) -> OptionsReport<'a> {
 fn check_writable(path: &Path) -> Result<(), Failure> {
     let folder = path.parent().filter(|f| !f.as_os_str().is_empty()).unwrap_or(Path::new("."));
     if !folder.is_dir() {
-        return Err(Failure::input(format!(
-            "{}: the folder {} does not exist",
-            path.display(),
-            folder.display()
-        )));
+        return Err(Failure::input(format!("{}: the folder {} does not exist", path.display(), folder.display())));
     }
     if path.exists() && !path.is_file() {
         return Err(Failure::input(format!("{}: is not a regular file", path.display())));
@@ -294,5 +283,9 @@ fn timed<T>(ms: &mut f64, work: impl FnOnce() -> T) -> T {
 fn png_path(text: &str) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
     let is_png = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("png"));
-    if is_png { Ok(path) } else { Err("expected a name that ends in .png".into()) }
+    if is_png {
+        Ok(path)
+    } else {
+        Err("expected a name that ends in .png".into())
+    }
 }

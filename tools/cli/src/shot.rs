@@ -103,7 +103,7 @@ impl Shot {
     }
 
     /// Writes the given fields over those of `view`, whose size stays.
-    pub(crate) fn apply(&self, view: &mut View) -> Result<(), Failure> {
+    pub(crate) fn apply(&self, view: &mut View) -> Result<(), String> {
         if let Some(camera) = &self.camera {
             let to = &mut view.camera;
             *to = Camera {
@@ -115,7 +115,7 @@ impl Shot {
             };
             let forward = to.target - to.eye;
             if forward.cross(to.up).length() <= 1e-6 * forward.length() * to.up.length() {
-                return Err(Failure::input("camera: eye, target and up lie on one line"));
+                return Err("camera: eye, target and up lie on one line".into());
             }
         }
         if let Some(light) = &self.light {

@@ -59,7 +59,11 @@ fn mirrored_share(primitive: &Primitive) -> f64 {
         let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
         *(if area > 0.0 { &mut left } else { &mut right }) += area.abs();
     }
-    if left + right > 0.0 { left.min(right) / (left + right) } else { 0.0 }
+    if left + right > 0.0 {
+        left.min(right) / (left + right)
+    } else {
+        0.0
+    }
 }
 
 #[cfg(test)]

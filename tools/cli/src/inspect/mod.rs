@@ -65,7 +65,11 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             let scene = load(path)?;
             let bytes = std::fs::metadata(path).map(|m| m.len()).unwrap_or(0);
             let summary = model::summarize(&scene, bytes);
-            if args.json { print_json(&summary) } else { print(&text::model(&summary)) }
+            if args.json {
+                print_json(&summary)
+            } else {
+                print(&text::model(&summary))
+            }
         }
         Kind::Image => {
             let found = image::load(path, &Limits::default())?;
@@ -93,7 +97,14 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
                 return print_json(&summary);
             }
             let names = summary.entry_points.iter().map(|n| crate::failure::printable(n)).collect::<Vec<_>>();
-            print(&format!("valid WGSL, entry points: {}\n", if names.is_empty() { "none".into() } else { names.join(", ") }))
+            print(&format!(
+                "valid WGSL, entry points: {}\n",
+                if names.is_empty() {
+                    "none".into()
+                } else {
+                    names.join(", ")
+                }
+            ))
         }
     }
 }

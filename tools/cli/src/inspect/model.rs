@@ -141,11 +141,7 @@ pub(super) fn summarize(scene: &Scene, bytes: u64) -> Summary<'_> {
         meshes: meshes(scene),
         materials: materials(scene),
         skins: scene.skins.iter().map(|s| s.joints.len()).collect(),
-        bones: character
-            .iter()
-            .flat_map(|c| &c.bones)
-            .map(|(bone, node)| (bone.name(), node_name(*node)))
-            .collect(),
+        bones: character.iter().flat_map(|c| &c.bones).map(|(bone, node)| (bone.name(), node_name(*node))).collect(),
         expressions: character
             .iter()
             .flat_map(|c| &c.expressions)
@@ -158,9 +154,7 @@ pub(super) fn summarize(scene: &Scene, bytes: u64) -> Summary<'_> {
                 uv_transforms: e.uv_transforms.len(),
             })
             .collect(),
-        look_at: character
-            .and_then(|c| c.look_at.as_ref())
-            .map(|l| if l.uses_bones { "bones" } else { "expressions" }),
+        look_at: character.and_then(|c| c.look_at.as_ref()).map(|l| if l.uses_bones { "bones" } else { "expressions" }),
         springs: character
             .iter()
             .flat_map(|c| &c.springs)

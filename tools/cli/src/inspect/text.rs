@@ -59,10 +59,7 @@ fn head(summary: &Summary<'_>) -> String {
         ("required", summary.source.extensions_required.join(", ")),
         (
             "size",
-            format!(
-                "{} triangles, {} vertices, {} nodes, {skins}",
-                summary.triangles, summary.vertices, summary.nodes
-            ),
+            format!("{} triangles, {} vertices, {} nodes, {skins}", summary.triangles, summary.vertices, summary.nodes),
         ),
         (
             "on the GPU",
@@ -74,7 +71,14 @@ fn head(summary: &Summary<'_>) -> String {
             ),
         ),
         ("look-at", summary.look_at.unwrap_or_default().into()),
-        ("constraints", if summary.constraints == 0 { String::new() } else { summary.constraints.to_string() }),
+        (
+            "constraints",
+            if summary.constraints == 0 {
+                String::new()
+            } else {
+                summary.constraints.to_string()
+            },
+        ),
     ]);
     lines
         .iter()
@@ -84,8 +88,9 @@ fn head(summary: &Summary<'_>) -> String {
 }
 
 fn meshes(summary: &Summary<'_>) -> Table {
-    let mut table =
-        Table::new(&["mesh", "part", "role", "material", "vertices", "triangles", "morphs", "influences", "uv", "colors"]);
+    let mut table = Table::new(&[
+        "mesh", "part", "role", "material", "vertices", "triangles", "morphs", "influences", "uv", "colors",
+    ]);
     for mesh in &summary.meshes {
         for (index, part) in mesh.primitives.iter().enumerate() {
             table.row([
