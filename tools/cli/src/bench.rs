@@ -31,7 +31,13 @@ pub(crate) struct Args {
     #[arg(long, value_name = "1|4", default_value = "4", value_parser = args::samples)]
     samples: u32,
     /// What fills the picture.
-    #[arg(long, value_enum, default_value_t = ViewName::Portrait)]
+    #[arg(
+        long,
+        value_enum,
+        value_name = "portrait|bust|full|face",
+        default_value_t = ViewName::Portrait,
+        hide_possible_values = true
+    )]
     view: ViewName,
     /// Adapter, by a part of its name (`hikage adapters`).
     #[arg(long, value_name = "NAME")]

@@ -27,11 +27,11 @@ struct Program {
     command: Command,
 
     /// Give up after so many seconds.
-    #[arg(long, global = true, value_name = "SECONDS", value_parser = args::timeout)]
+    #[arg(long, global = true, display_order = 900, value_name = "SECONDS", value_parser = args::timeout)]
     timeout: Option<f64>,
 
     /// Say more on standard error.
-    #[arg(short, long, global = true)]
+    #[arg(short, long, global = true, display_order = 901)]
     verbose: bool,
 }
 

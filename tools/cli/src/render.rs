@@ -42,9 +42,9 @@ pub(crate) struct Args {
     #[arg(long, value_name = "WxH", value_parser = args::size)]
     size: Option<[u32; 2]>,
     /// What fills the picture [default: portrait].
-    #[arg(long, value_enum)]
+    #[arg(long, value_enum, value_name = "portrait|bust|full|face", hide_possible_values = true)]
     view: Option<ViewName>,
-    /// Turn of the camera round the character; positive shows its left side.
+    /// Turn of the camera round the character, to its left where positive.
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = args::yaw)]
     yaw: Option<f32>,
     /// Direction of the light: 0,0 from the front, positive from the picture's right and from above.
@@ -65,8 +65,14 @@ pub(crate) struct Args {
     /// Moment of texture animations.
     #[arg(long, value_name = "SECONDS", default_value = "0", value_parser = args::time)]
     time: f32,
-    /// What is shown of each pixel.
-    #[arg(long, value_enum, default_value_t = ChannelName::Final)]
+    /// What is shown of each pixel; part-id is 16 bits in red (low) and green (high), 0 for background.
+    #[arg(
+        long,
+        value_enum,
+        value_name = "final|normal|depth|part-id",
+        default_value_t = ChannelName::Final,
+        hide_possible_values = true
+    )]
     channel: ChannelName,
     /// Adapter, by a part of its name (`hikage adapters`).
     #[arg(long, value_name = "NAME")]
@@ -223,8 +229,8 @@ fn view(args: &Args, shot: &Shot, scene: &hikage::scene::Scene) -> Result<View, 
     if let Some([yaw, pitch]) = args.light.map(|angles| angles.map(f32::to_radians)) {
         view.lights.directional.to_light = Vec3::new(yaw.sin() * pitch.cos(), pitch.sin(), yaw.cos() * pitch.cos());
     }
-    if let Some(background) = &args.background {
-        view.background = background.clone();
+    if let Some(background) = args.background {
+        view.background = background;
     }
     view.samples = args.samples;
     view.time_s = args.time;
