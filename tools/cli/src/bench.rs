@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use glam::{Mat4, Vec3};
+use hikage::View;
 use hikage::bench::{BenchOptions, run as measure};
 
 use crate::args::{self, ViewName};
@@ -55,11 +57,9 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let gpu = setup::gpu(args.adapter.as_deref())?;
     spinner.step(format!("measuring {} frames", args.frames));
     let options = BenchOptions {
-        size: args.size,
-        instances: args.instances,
-        frames: args.frames,
+        view: View { instances: crowd(args.instances), ..View::framed(&scene, args.view.into(), 0.0, args.size) },
         samples: args.samples,
-        view: args.view.into(),
+        frames: args.frames as usize,
     };
     let report = measure(&gpu, &scene, &options)?;
     drop(spinner);
@@ -73,11 +73,11 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     }
     let mut passes = Table::new(&["pass", "ms"]);
     for pass in &report.passes {
-        passes.row([pass.name.to_string(), format!("{:.3}", pass.ms)]);
+        passes.row([pass.name.clone(), format!("{:.3}", pass.ms.median)]);
     }
     print(&format!(
         "{}: {} x {}, {} samples, {} instances, {} frames\n{}  frame / floor {:.2}\n{}  {} draws, {} triangles, {} on the GPU\n",
-        report.adapter,
+        report.adapter.name,
         args.size[0],
         args.size[1],
         args.samples,
@@ -88,6 +88,17 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         passes.text(),
         report.draws,
         report.triangles,
-        bytes(report.gpu_bytes),
+        bytes(report.memory.textures + report.memory.geometry),
     ))
+}
+
+/// One character at the origin, the others in rows behind it.
+fn crowd(count: u32) -> Vec<Mat4> {
+    let columns = (f64::from(count).sqrt().ceil() as u32).max(1);
+    let middle = (columns - 1) / 2;
+    let place = |i: u32| {
+        let (column, row) = (i % columns, i / columns);
+        Vec3::new(column as f32 - middle as f32, 0.0, -(row as f32))
+    };
+    (0..count).map(|i| Mat4::from_translation(place(i))).collect()
 }

@@ -14,7 +14,7 @@ use hikage::golden::{Blob, Tolerance, compare, largest_blob, sheet};
 use hikage::material::Origin;
 use hikage::picture::{read_png, write_png};
 use hikage::scene::{Ambient, Camera, DirectionalLight, Image, Lights, Scene};
-use hikage::{Background, Channel, Gpu, GpuScene, Renderer, View};
+use hikage::{Background, Channel, Gpu, GpuScene, Output, Renderer, View};
 use serde::{Deserialize, Serialize};
 
 use crate::failure::Failure;
@@ -38,6 +38,9 @@ pub(crate) struct Args {
     /// Only references whose path contains this.
     #[arg(long, value_name = "TEXT")]
     only: Option<String>,
+    /// Blend and resolve samples in linear light, as `hikage render` does, not in encoded values as the references.
+    #[arg(long)]
+    linear: bool,
     /// Adapter, by a part of its name.
     #[arg(long, value_name = "NAME")]
     adapter: Option<String>,
@@ -126,7 +129,10 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
 
     let spinner = Spinner::new();
     let gpu = setup::gpu(args.adapter.as_deref())?;
-    let mut studio = Studio { renderer: Renderer::new(&gpu)?, gpu, loaded: None };
+    // The references blend and resolve encoded values.
+    let encoded = Output { format: Output::default().format.remove_srgb_suffix(), ..Output::default() };
+    let output = if args.linear { Output::default() } else { encoded };
+    let mut studio = Studio { renderer: Renderer::with_output(&gpu, output)?, gpu, loaded: None };
     let mut outcome = Outcome { adapter: studio.gpu.info().name.clone(), rows: Vec::new(), failed: Vec::new() };
     for (index, file) in files.iter().enumerate() {
         let name = file.strip_prefix(&root).unwrap_or(file).with_extension("").display().to_string();
@@ -176,8 +182,7 @@ impl Studio {
         let expressions: Vec<_> = reference.expressions.into_iter().flatten().collect();
         setup::pose(&self.gpu, gpu_scene, scene, &expressions)?;
         let ours = self.renderer.render(gpu_scene, &view)?;
-        let id_view =
-            View { samples: 1, channel: Channel::PartId, background: Background::Transparent, ..view.clone() };
+        let id_view = View { channel: Channel::PartId, background: Background::Transparent, ..view.clone() };
         let ids = part_ids(&self.renderer.render(gpu_scene, &id_view)?);
 
         // Also refuses other sizes.
@@ -185,9 +190,9 @@ impl Studio {
         let in_band = band(&ids, ours.width as usize);
         let is_toon = |id: u16| {
             id == 0
-                || scene
-                    .materials
-                    .get(gpu_scene.part_material(usize::from(id) - 1))
+                || gpu_scene
+                    .part_material(usize::from(id) - 1)
+                    .and_then(|m| scene.materials.get(m))
                     .is_some_and(|m| matches!(m.origin, Origin::Mtoon0 | Origin::Mtoon1 | Origin::Unlit))
         };
         let mut toon_ids = vec![None; usize::from(u16::MAX) + 1];
@@ -233,7 +238,6 @@ fn view(reference: &Reference) -> Result<View, String> {
             ..Lights::default()
         },
         background,
-        samples: 4,
         ..View::default()
     })
 }

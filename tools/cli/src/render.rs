@@ -6,7 +6,7 @@ use std::time::Instant;
 use clap::ValueEnum;
 use glam::Vec3;
 use hikage::picture::{encode_png, write_atomic};
-use hikage::{Background, Channel, Renderer, View};
+use hikage::{Background, Channel, GpuMemory, Output, Renderer, View};
 use serde::Serialize;
 
 use crate::args::{self, ViewName};
@@ -116,7 +116,7 @@ struct Report<'a> {
     ms: Timings,
     draws: usize,
     triangles: usize,
-    gpu_bytes: MemoryReport,
+    gpu_bytes: GpuMemory,
     warnings: &'a [hikage::scene::Warning],
 }
 
@@ -157,13 +157,6 @@ struct Timings {
     total: f64,
 }
 
-#[derive(Serialize)]
-struct MemoryReport {
-    textures: u64,
-    geometry: u64,
-    targets: u64,
-}
-
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let start = Instant::now();
     let mut ms = Timings::default();
@@ -181,7 +174,8 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     spinner.step("opening the adapter");
     let gpu = timed(&mut ms.adapter, || setup::gpu(args.adapter.as_deref()))?;
     spinner.step("making pipelines");
-    let renderer = timed(&mut ms.pipelines, || Renderer::new(&gpu))?;
+    let output = Output { samples: args.samples, ..Output::default() };
+    let mut renderer = timed(&mut ms.pipelines, || Renderer::with_output(&gpu, output))?;
     spinner.step("uploading");
     let mut gpu_scene = timed(&mut ms.upload, || renderer.upload(&scene))?;
     setup::pose(&gpu, &mut gpu_scene, &scene, &args.expression)?;
@@ -194,7 +188,6 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     write_atomic(&args.output, &png)?;
     if let Some(path) = &args.report {
         let info = gpu.info();
-        let memory = gpu_scene.memory();
         ms.total = start.elapsed().as_secs_f64() * 1e3;
         let report = Report {
             model: args.model.display().to_string(),
@@ -202,9 +195,9 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             adapter: AdapterReport { name: &info.name, backend: &info.backend, kind: &info.kind, driver: &info.driver },
             options: options_report(args, &view),
             ms,
-            draws: gpu_scene.draws,
+            draws: gpu_scene.draw_count(),
             triangles: scene.triangle_count(),
-            gpu_bytes: MemoryReport { textures: memory.textures, geometry: memory.geometry, targets: memory.targets },
+            gpu_bytes: gpu_scene.memory(),
             warnings: &scene.warnings,
         };
         write_atomic(path, output::json(&report)?.as_bytes())?;
@@ -232,7 +225,6 @@ fn view(args: &Args, shot: &Shot, scene: &hikage::scene::Scene) -> Result<View, 
     if let Some(background) = args.background {
         view.background = background;
     }
-    view.samples = args.samples;
     view.time_s = args.time;
     view.channel = args.channel.into();
     Ok(view)
@@ -241,7 +233,7 @@ fn view(args: &Args, shot: &Shot, scene: &hikage::scene::Scene) -> Result<View, 
 fn options_report<'a>(args: &'a Args, view: &View) -> OptionsReport<'a> {
     OptionsReport {
         size: view.size,
-        samples: view.samples,
+        samples: args.samples,
         channel: args.channel,
         time_s: view.time_s,
         background: match &view.background {

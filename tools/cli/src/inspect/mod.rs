@@ -9,7 +9,7 @@ use std::fs::File;
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
-use hikage::import::{Limits, image, load};
+use hikage::import::{image, load};
 use serde::Serialize;
 
 use crate::failure::Failure;
@@ -72,7 +72,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             }
         }
         Kind::Image => {
-            let found = image::load(path, &Limits::default())?;
+            let found = image::load(path)?;
             let summary = ImageSummary {
                 kind: "image",
                 file: path.display().to_string(),
@@ -88,10 +88,8 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             print(&format!("{format}, {width} x {height} pixels, {bits} bits a channel\n"))
         }
         Kind::Shader => {
-            let source = read_small(path)?;
-            let found = hikage::shaders::check(&source)
-                .map_err(|e| Failure::input(format!("{}: {}", path.display(), Failure::from(e))))?;
             let file = path.display().to_string();
+            let found = hikage::shaders::check(&file, &read_small(path)?)?;
             let summary = ShaderSummary { kind: "shader", file, entry_points: found.entry_points };
             if args.json {
                 return print_json(&summary);
