@@ -23,7 +23,10 @@ fn folder(name: &str) -> PathBuf {
 }
 
 fn hikage(folder: &Path, args: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_hikage")).args(args).current_dir(folder).output().expect("the program starts")
+    let mut command = Command::new(env!("CARGO_BIN_EXE_hikage"));
+    // Without it, Mesa's device selection writes a line of its own to standard error.
+    command.env("XDG_RUNTIME_DIR", folder);
+    command.args(args).current_dir(folder).output().expect("the program starts")
 }
 
 /// Runs, expects the status, and returns standard error, which is one line for everything but usage.
