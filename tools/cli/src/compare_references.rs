@@ -105,8 +105,8 @@ struct Figures {
 struct Row {
     name: String,
     all: Figures,
-    /// Without parts that come from a PBR material.
-    toon: Figures,
+    /// Without parts that come from a PBR material; `None` where no other part is seen.
+    toon: Option<Figures>,
 }
 
 #[derive(Serialize)]
@@ -143,7 +143,8 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         }
     }
     drop(spinner);
-    outcome.rows.sort_by(|a, b| b.toon.off_share.total_cmp(&a.toon.off_share).then(a.name.cmp(&b.name)));
+    let off = |row: &Row| row.toon.map_or(-1.0, |t| t.off_share);
+    outcome.rows.sort_by(|a, b| off(b).total_cmp(&off(a)).then(a.name.cmp(&b.name)));
 
     if args.json {
         print_json(&outcome)?
@@ -206,7 +207,9 @@ impl Studio {
             let file_name = format!("{}.png", name.replace(['/', '\\'], "_"));
             write_png(out.join(file_name), &sheet(&theirs, &ours, Some(&report))?)?;
         }
-        Ok(Row { name: name.to_owned(), all, toon: figures(&differences, ours.width, &in_band, |i| toon[i]) })
+        let shows_toon = ids.iter().zip(&toon).any(|(id, toon)| *id != 0 && *toon);
+        let toon = shows_toon.then(|| figures(&differences, ours.width, &in_band, |i| toon[i]));
+        Ok(Row { name: name.to_owned(), all, toon })
     }
 }
 
@@ -305,34 +308,43 @@ fn figures(differences: &[(u16, u8)], width: u32, in_band: &[bool], counts: impl
     }
 }
 
+fn blob(figures: &Figures) -> String {
+    figures.largest_blob.map_or(0, |b| b.pixels).to_string()
+}
+
+/// Upper left corner of the largest group.
+fn at(figures: &Figures) -> String {
+    figures.largest_blob.map_or(String::new(), |b| format!("{},{}", b.min[0], b.min[1]))
+}
+
 fn text(outcome: &Outcome) -> String {
-    let blob = |f: &Figures| f.largest_blob.map_or(0, |b| b.pixels).to_string();
-    let at = |f: &Figures| f.largest_blob.map_or(String::new(), |b| format!("{},{}", b.min[0], b.min[1]));
     let mut table = Table::new(&["reference", "off %", "blob px", "at", "mean", "all: off %", "blob px", "mean"]);
     for row in &outcome.rows {
+        let toon = |text: fn(&Figures) -> String| row.toon.as_ref().map_or("-".into(), text);
         table.row([
             row.name.clone(),
-            format!("{:.3}", row.toon.off_share * 100.0),
-            blob(&row.toon),
-            at(&row.toon),
-            format!("{:.3}", row.toon.mean_abs),
+            toon(|f| format!("{:.3}", f.off_share * 100.0)),
+            toon(blob),
+            toon(at),
+            toon(|f| format!("{:.3}", f.mean_abs)),
             format!("{:.3}", row.all.off_share * 100.0),
             blob(&row.all),
             format!("{:.3}", row.all.mean_abs),
         ]);
     }
     let mut out = table.text();
-    let count = outcome.rows.len().max(1) as f64;
-    let mean = |value: fn(&Row) -> f64| outcome.rows.iter().map(value).sum::<f64>() / count;
+    let toon: Vec<&Figures> = outcome.rows.iter().filter_map(|r| r.toon.as_ref()).collect();
+    let mean = |sum: f64, count: usize| sum / count.max(1) as f64;
     let _ = writeln!(
         out,
-        "{} pictures on {}: mean off {:.3} % (all materials {:.3} %), mean difference {:.3}/255, {} under 0.5 %",
+        "{} pictures on {}, {} with parts not from PBR: mean off {:.3} %, mean difference {:.3}/255, {} under 0.5 %; all materials: mean off {:.3} %",
         outcome.rows.len(),
         outcome.adapter,
-        mean(|r| r.toon.off_share * 100.0),
-        mean(|r| r.all.off_share * 100.0),
-        mean(|r| r.toon.mean_abs),
-        outcome.rows.iter().filter(|r| r.toon.off_share < 0.005).count(),
+        toon.len(),
+        mean(toon.iter().map(|f| f.off_share * 100.0).sum(), toon.len()),
+        mean(toon.iter().map(|f| f.mean_abs).sum(), toon.len()),
+        toon.iter().filter(|f| f.off_share < 0.005).count(),
+        mean(outcome.rows.iter().map(|r| r.all.off_share * 100.0).sum(), outcome.rows.len()),
     );
     let _ = writeln!(
         out,
