@@ -2,9 +2,11 @@
 pub mod bench;
 pub mod color;
 mod error;
+pub mod golden;
 pub mod gpu;
 pub mod material;
 pub mod motion;
+pub mod picture;
 pub mod render;
 pub mod scene;
 pub mod import;

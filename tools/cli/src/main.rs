@@ -1,1 +1,102 @@
-fn main() {}
+//! The program `hikage`: draws, inspects and measures VRM and glTF characters.
+
+mod adapters;
+mod args;
+mod bench;
+mod compare_references;
+mod deadline;
+mod failure;
+mod inspect;
+mod output;
+mod render;
+mod setup;
+mod shot;
+mod spinner;
+
+use std::panic::AssertUnwindSafe;
+
+use clap::{Parser, Subcommand};
+
+use crate::failure::Failure;
+
+/// Draws anime characters (VRM, glTF) as toon pictures, with or without a GPU.
+#[derive(Parser)]
+#[command(name = "hikage", version, max_term_width = 100, arg_required_else_help = true, after_help = AFTER_HELP)]
+struct Program {
+    #[command(subcommand)]
+    command: Command,
+
+    /// Give up after so many seconds.
+    #[arg(long, global = true, display_order = 900, value_name = "SECONDS", value_parser = args::timeout)]
+    timeout: Option<f64>,
+
+    /// Say more on standard error.
+    #[arg(short, long, global = true, display_order = 901)]
+    verbose: bool,
+}
+
+const AFTER_HELP: &str = "\
+Examples:
+  hikage render girl.vrm -o girl.png
+  hikage inspect girl.vrm
+  hikage render girl.vrm -o smile.png --view face --expression happy=0.8 --light 30,40
+
+Exit status: 0 done, 1 bad input, 2 wrong usage, 3 no usable graphics.
+Colours are left out where NO_COLOR is set or the output is no terminal.";
+
+#[derive(Subcommand)]
+enum Command {
+    /// Draw a model into a PNG.
+    Render(render::Args),
+    /// Tell what a model, an image or a shader holds, and what will look wrong. Needs no GPU.
+    Inspect(inspect::Args),
+    /// Measure the time of a frame, against the same meshes drawn unlit.
+    Bench(bench::Args),
+    /// List the graphics adapters.
+    Adapters(adapters::Args),
+    /// Compare with reference pictures of another renderer.
+    #[command(hide = true)]
+    CompareReferences(compare_references::Args),
+}
+
+fn main() {
+    let program = Program::parse();
+    let level = if program.verbose {
+        tracing_subscriber::filter::LevelFilter::DEBUG
+    } else {
+        ERRORS_ONLY
+    };
+    tracing_subscriber::fmt()
+        .with_max_level(level)
+        .with_writer(anstream::stderr)
+        .with_ansi(false)
+        .without_time()
+        .init();
+    if let Some(seconds) = program.timeout {
+        deadline::start(seconds);
+    }
+    // A panic is a fault of this program; the message stands above, and the status stays one of the documented four.
+    let outcome = std::panic::catch_unwind(AssertUnwindSafe(|| run(program.command)))
+        .unwrap_or_else(|_| Err(Failure::input("internal fault; please report it with the model")));
+    let status = match outcome {
+        Ok(()) => 0,
+        Err(failure) => {
+            failure.print();
+            failure.status()
+        }
+    };
+    // Does not wait for the driver's threads, which may hang after a fault.
+    std::process::exit(status);
+}
+
+const ERRORS_ONLY: tracing_subscriber::filter::LevelFilter = tracing_subscriber::filter::LevelFilter::ERROR;
+
+fn run(command: Command) -> Result<(), Failure> {
+    match command {
+        Command::Render(args) => render::run(&args),
+        Command::Inspect(args) => inspect::run(&args),
+        Command::Bench(args) => bench::run(&args),
+        Command::Adapters(args) => adapters::run(&args),
+        Command::CompareReferences(args) => compare_references::run(&args),
+    }
+}

@@ -1,1 +1,83 @@
-fn main() {}
+//! Chores of this repository: `cargo xtask TASK`. Standard library only, so that it builds in a second.
+
+mod badinput;
+mod cargo;
+mod demo;
+mod driver;
+mod goldens;
+mod lint;
+
+use std::path::PathBuf;
+use std::process::exit;
+
+const HELP: &str = "\
+cargo xtask TASK
+
+  demo [MODEL]              check the graphics driver, build, draw a character, say where the picture is
+  test [ARGS…]              check the graphics driver, run all tests; ARGS go to `cargo test`
+  lint                      format, clippy, docs, words that must not be in the tree
+  goldens                   run the golden tests and list what differs
+  goldens --bless NAME…     accept these pictures, after looking at them
+  goldens --bless --all     accept all pictures that differ
+  compare-references [DIR] [--write OUTDIR] [--only TEXT] [--json]
+                            compare with pictures of another renderer (DIR: ../shared/models)
+  badinput [DIR]            feed the corpus of malformed files to `hikage` (DIR: ../shared/badinput)
+";
+
+/// What ends a task early: exit status and message. An empty message means that a child has said it already.
+pub(crate) struct Stop(pub(crate) i32, pub(crate) String);
+
+pub(crate) type Outcome<T = ()> = Result<T, Stop>;
+
+fn main() {
+    let args: Vec<String> = std::env::args().skip(1).collect();
+    let (task, rest) = args.split_first().map_or(("", &[][..]), |(task, rest)| (task.as_str(), rest));
+    let Err(Stop(status, message)) = run(task, rest) else { return };
+    if !message.is_empty() {
+        eprintln!("xtask: {}", message.trim_end());
+    }
+    exit(status);
+}
+
+fn run(task: &str, args: &[String]) -> Outcome {
+    // Tasks work from the repository's folder, wherever they are called; a path that they are given stays what it was.
+    let args: Vec<String> = match task {
+        "demo" | "badinput" | "compare-references" => args.iter().map(|arg| full_path(arg)).collect(),
+        _ => args.to_vec(),
+    };
+    let root = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../..");
+    std::env::set_current_dir(&root).map_err(|e| Stop(1, format!("{}: {e}", root.display())))?;
+
+    match task {
+        "demo" => demo::run(&args),
+        "test" => cargo::run(&with(&["test", "--workspace"], &args), &driver::ensure()?),
+        "lint" => lint::run(),
+        "goldens" => goldens::run(&args),
+        "compare-references" => {
+            let mut command = vec!["run", "--quiet", "--release", "-p", "hikage-cli", "--", "compare-references"];
+            if args.first().is_none_or(|first| first.starts_with('-')) {
+                command.push("../shared/models");
+            }
+            cargo::run(&with(&command, &args), &driver::ensure()?)
+        }
+        "badinput" => badinput::run(&args),
+        "" | "help" | "-h" | "--help" => {
+            print!("{HELP}");
+            Ok(())
+        }
+        _ => Err(Stop(2, format!("no task {task:?}\n\n{HELP}"))),
+    }
+}
+
+fn with<'a>(command: &[&'a str], args: &'a [String]) -> Vec<&'a str> {
+    command.iter().copied().chain(args.iter().map(String::as_str)).collect()
+}
+
+/// The absolute form of what is the path of something; anything else as it is.
+fn full_path(arg: &str) -> String {
+    std::path::absolute(arg)
+        .ok()
+        .filter(|path| path.exists())
+        .and_then(|path| path.into_os_string().into_string().ok())
+        .unwrap_or_else(|| arg.to_owned())
+}

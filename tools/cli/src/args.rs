@@ -1,0 +1,131 @@
+//! Readers of single arguments: each states its range in the message.
+
+use clap::ValueEnum;
+use hikage::Background;
+use hikage::color::Srgb;
+use hikage::scene::Framing;
+
+/// Longest side of a picture: the size of textures that every adapter has.
+pub(crate) const MAX_SIDE: u32 = 8192;
+
+/// `--view`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum ViewName {
+    /// Head and shoulders.
+    Portrait,
+    /// Down to the waist.
+    Bust,
+    /// The whole character.
+    Full,
+    /// The face.
+    Face,
+}
+
+impl From<ViewName> for Framing {
+    fn from(name: ViewName) -> Self {
+        match name {
+            ViewName::Portrait => Self::Portrait,
+            ViewName::Bust => Self::Bust,
+            ViewName::Full => Self::Full,
+            ViewName::Face => Self::Face,
+        }
+    }
+}
+
+/// `WxH`, pixels.
+pub(crate) fn size(text: &str) -> Result<[u32; 2], String> {
+    let side = |t: &str| t.parse::<u32>().ok().filter(|s| (1..=MAX_SIDE).contains(s));
+    text.split_once(['x', 'X'])
+        .and_then(|(w, h)| Some([side(w)?, side(h)?]))
+        .ok_or_else(|| format!("expected WIDTHxHEIGHT, each from 1 to {MAX_SIDE}, as 1024x1024"))
+}
+
+/// Samples a pixel: no other numbers are sure to exist on every adapter.
+pub(crate) fn samples(text: &str) -> Result<u32, String> {
+    match text {
+        "1" => Ok(1),
+        "4" => Ok(4),
+        _ => Err("expected 1 or 4".into()),
+    }
+}
+
+/// `none` or `#RRGGBB`.
+pub(crate) fn background(text: &str) -> Result<Background, String> {
+    if text == "none" {
+        return Ok(Background::Transparent);
+    }
+    Srgb::from_hex(text).map(Background::Color).ok_or_else(|| "expected none or #RRGGBB".into())
+}
+
+/// Degrees from -360 to 360.
+pub(crate) fn yaw(text: &str) -> Result<f32, String> {
+    number(text, -360.0, 360.0)
+}
+
+/// `YAW,PITCH`, degrees.
+pub(crate) fn light(text: &str) -> Result<[f32; 2], String> {
+    let (yaw, pitch) = text.split_once(',').ok_or("expected YAW,PITCH in degrees, as 20,35")?;
+    Ok([
+        number(yaw, -360.0, 360.0).map_err(|e| format!("yaw: {e}"))?,
+        number(pitch, -90.0, 90.0).map_err(|e| format!("pitch: {e}"))?,
+    ])
+}
+
+/// `NAME=WEIGHT`; a bare name is at full weight.
+pub(crate) fn expression(text: &str) -> Result<(String, f32), String> {
+    let (name, weight) = text.rsplit_once('=').unwrap_or((text, "1"));
+    if name.is_empty() {
+        return Err("expected NAME=WEIGHT, as happy=0.8".into());
+    }
+    Ok((name.to_owned(), number(weight, 0.0, 1.0).map_err(|e| format!("weight: {e}"))?))
+}
+
+/// Seconds of the shown moment.
+pub(crate) fn time(text: &str) -> Result<f32, String> {
+    number(text, 0.0, 86400.0)
+}
+
+/// Seconds of patience.
+pub(crate) fn timeout(text: &str) -> Result<f64, String> {
+    number(text, 0.001, 86400.0).map(f64::from)
+}
+
+/// A finite number in `low..=high`.
+fn number(text: &str, low: f32, high: f32) -> Result<f32, String> {
+    text.trim()
+        .parse::<f32>()
+        .ok()
+        .filter(|v| (low..=high).contains(v))
+        .ok_or_else(|| format!("expected a number from {low} to {high}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_have_two_sides_in_range() {
+        assert_eq!(size("640x480"), Ok([640, 480]));
+        for text in ["", "x", "4x", "x4", "0x5", "5x0", "-1x5", "99999999x1", "1x2x3", "1.5x2", "８x8"] {
+            assert!(size(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn expressions_keep_equal_signs_in_their_name() {
+        assert_eq!(expression("a=b=0.5"), Ok(("a=b".into(), 0.5)));
+        assert_eq!(expression("happy"), Ok(("happy".into(), 1.0)));
+        for text in ["=1", "a=", "a=nan", "a=1.1", "a=-0.1"] {
+            assert!(expression(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn lights_are_two_angles() {
+        assert_eq!(light("-20, 35"), Ok([-20.0, 35.0]));
+        for text in ["", "1", "1,2,3", "inf,0", "0,91"] {
+            assert!(light(text).is_err(), "{text}");
+        }
+    }
+}

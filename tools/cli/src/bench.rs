@@ -1,0 +1,104 @@
+//! `hikage bench`.
+
+use std::path::PathBuf;
+
+use glam::{Mat4, Vec3};
+use hikage::View;
+use hikage::bench::{BenchOptions, run as measure};
+
+use crate::args::{self, ViewName};
+use crate::failure::Failure;
+use crate::output::{Table, bytes, print, print_json};
+use crate::setup;
+use crate::spinner::Spinner;
+
+/// Arguments of `hikage bench`.
+#[derive(clap::Args)]
+#[command(after_help = "\
+The floor is the same meshes with the same samples, drawn unlit with one texture: what no shading can go below.
+Example: hikage bench girl.vrm --size 512x512 --instances 20")]
+pub(crate) struct Args {
+    /// Model: .vrm, .glb or .gltf.
+    model: PathBuf,
+    /// Size of the picture, pixels.
+    #[arg(long, value_name = "WxH", default_value = "1024x1024", value_parser = args::size)]
+    size: [u32; 2],
+    /// Copies of the character.
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=4096))]
+    instances: u32,
+    /// Measured frames.
+    #[arg(long, value_name = "N", default_value_t = 30, value_parser = clap::value_parser!(u32).range(1..=10000))]
+    frames: u32,
+    /// Samples a pixel.
+    #[arg(long, value_name = "1|4", default_value = "4", value_parser = args::samples)]
+    samples: u32,
+    /// What fills the picture.
+    #[arg(
+        long,
+        value_enum,
+        value_name = "portrait|bust|full|face",
+        default_value_t = ViewName::Portrait,
+        hide_possible_values = true
+    )]
+    view: ViewName,
+    /// Adapter, by a part of its name (`hikage adapters`).
+    #[arg(long, value_name = "NAME")]
+    adapter: Option<String>,
+    /// Print JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+pub(crate) fn run(args: &Args) -> Result<(), Failure> {
+    let spinner = Spinner::new();
+    spinner.step("loading the model");
+    let scene = hikage::import::load(&args.model)?;
+    spinner.step("opening the adapter");
+    let gpu = setup::gpu(args.adapter.as_deref())?;
+    spinner.step(format!("measuring {} frames", args.frames));
+    let options = BenchOptions {
+        view: View { instances: crowd(args.instances), ..View::framed(&scene, args.view.into(), 0.0, args.size) },
+        samples: args.samples,
+        frames: args.frames as usize,
+    };
+    let report = measure(&gpu, &scene, &options)?;
+    drop(spinner);
+    if args.json {
+        return print_json(&report);
+    }
+
+    let mut times = Table::new(&["ms a frame", "median", "min", "p95"]);
+    for (name, ms) in [("frame", &report.frame_ms), ("floor", &report.floor_ms)] {
+        times.row([name.into(), format!("{:.3}", ms.median), format!("{:.3}", ms.min), format!("{:.3}", ms.p95)]);
+    }
+    let mut passes = Table::new(&["pass", "ms"]);
+    for pass in &report.passes {
+        passes.row([pass.name.clone(), format!("{:.3}", pass.ms.median)]);
+    }
+    print(&format!(
+        "{}: {} x {}, {} samples, {} instances, {} frames\n{}  frame / floor {:.2}\n{}  {} draws, {} triangles, {} on the GPU\n",
+        report.adapter.name,
+        args.size[0],
+        args.size[1],
+        args.samples,
+        args.instances,
+        args.frames,
+        times.text(),
+        report.floor_ratio,
+        passes.text(),
+        report.draws,
+        report.triangles,
+        bytes(report.memory.textures + report.memory.geometry),
+    ))
+}
+
+/// One character at the origin, the others in rows behind it.
+fn crowd(count: u32) -> Vec<Mat4> {
+    let columns = (f64::from(count).sqrt().ceil() as u32).max(1);
+    let middle = (columns - 1) / 2;
+    let place = |i: u32| {
+        let (column, row) = (i % columns, i / columns);
+        Vec3::new(column as f32 - middle as f32, 0.0, -(row as f32))
+    };
+    (0..count).map(|i| Mat4::from_translation(place(i))).collect()
+}

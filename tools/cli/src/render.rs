@@ -1,0 +1,289 @@
+//! `hikage render`.
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use clap::ValueEnum;
+use glam::Vec3;
+use hikage::picture::{encode_png, write_atomic};
+use hikage::{Background, Channel, GpuMemory, Output, Renderer, View};
+use serde::Serialize;
+
+use crate::args::{self, ViewName};
+use crate::failure::{Failure, warn};
+use crate::shot::Shot;
+use crate::spinner::Spinner;
+use crate::{deadline, output, setup};
+
+/// Warnings that are shown before the rest is only counted.
+const SHOWN_WARNINGS: usize = 5;
+
+/// Arguments of `hikage render`.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Examples:
+  hikage render girl.vrm -o girl.png --view bust --yaw 25
+  hikage render girl.vrm -o icon.png --size 256x256 --background none --expression happy,blink=0.3
+  hikage render girl.vrm -o again.png --shot shot.json
+
+SHOT.json (every field may be missing; options given here win over it):
+  {\"size\": [1024, 1024], \"background\": \"#808080\", \"ambient\": [0.1, 0.1, 0.1],
+   \"camera\": {\"eye\": [0, 1.3, 4], \"target\": [0, 1.3, 0], \"up\": [0, 1, 0], \"fov_y_deg\": 20, \"near\": 0.1, \"far\": 50},
+   \"light\": {\"to_light\": [0.3, 0.5, 0.8], \"color\": [1, 1, 1], \"intensity\": 1}}
+Metres; the character stands at the origin and faces +Z. Colours of light are linear; intensity 1 shows a material's
+lit colour exactly.")]
+pub(crate) struct Args {
+    /// Model: .vrm, .glb or .gltf.
+    model: PathBuf,
+    /// Picture to write; its folder must exist.
+    #[arg(short, long, value_name = "OUT.png", value_parser = png_path)]
+    output: PathBuf,
+    /// Size, pixels [default: 1024x1024].
+    #[arg(long, value_name = "WxH", value_parser = args::size)]
+    size: Option<[u32; 2]>,
+    /// What fills the picture [default: portrait].
+    #[arg(long, value_enum, value_name = "portrait|bust|full|face", hide_possible_values = true)]
+    view: Option<ViewName>,
+    /// Turn of the camera round the character, to its left where positive.
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = args::yaw)]
+    yaw: Option<f32>,
+    /// Direction of the light: 0,0 from the front, positive from the picture's right and from above.
+    #[arg(long, value_name = "YAW,PITCH", allow_hyphen_values = true, value_parser = args::light)]
+    light: Option<[f32; 2]>,
+    /// Background: none (transparent) or #RRGGBB [default: #808080].
+    #[arg(long, value_name = "COLOR", value_parser = args::background)]
+    background: Option<Background>,
+    /// Samples a pixel.
+    #[arg(long, value_name = "1|4", default_value = "4", value_parser = args::samples)]
+    samples: u32,
+    /// Expressions and their weights, 0 to 1.
+    #[arg(long, value_name = "NAME=W,...", value_delimiter = ',', value_parser = args::expression)]
+    expression: Vec<(String, f32)>,
+    /// File with camera, light and background; see below.
+    #[arg(long, value_name = "SHOT.json")]
+    shot: Option<PathBuf>,
+    /// Moment of texture animations.
+    #[arg(long, value_name = "SECONDS", default_value = "0", value_parser = args::time)]
+    time: f32,
+    /// What is shown of each pixel; part-id is 16 bits in red (low) and green (high), 0 for background.
+    #[arg(
+        long,
+        value_enum,
+        value_name = "final|normal|depth|part-id",
+        default_value_t = ChannelName::Final,
+        hide_possible_values = true
+    )]
+    channel: ChannelName,
+    /// Adapter, by a part of its name (`hikage adapters`).
+    #[arg(long, value_name = "NAME")]
+    adapter: Option<String>,
+    /// Write timings, sizes and warnings here as JSON.
+    #[arg(long, value_name = "REPORT.json")]
+    report: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize)]
+#[serde(rename_all = "kebab-case")]
+enum ChannelName {
+    /// The finished picture.
+    Final,
+    /// View-space normals.
+    Normal,
+    /// Depth.
+    Depth,
+    /// Number of the part, 16 bits in red (low) and green (high); 0 is background.
+    PartId,
+}
+
+impl From<ChannelName> for Channel {
+    fn from(name: ChannelName) -> Self {
+        match name {
+            ChannelName::Final => Self::Final,
+            ChannelName::Normal => Self::Normal,
+            ChannelName::Depth => Self::Depth,
+            ChannelName::PartId => Self::PartId,
+        }
+    }
+}
+
+/// Report of a rendering.
+#[derive(Serialize)]
+struct Report<'a> {
+    model: String,
+    output: String,
+    adapter: AdapterReport<'a>,
+    options: OptionsReport<'a>,
+    ms: Timings,
+    draws: usize,
+    triangles: usize,
+    gpu_bytes: GpuMemory,
+    warnings: &'a [hikage::scene::Warning],
+}
+
+#[derive(Serialize)]
+struct AdapterReport<'a> {
+    name: &'a str,
+    backend: &'a str,
+    kind: &'a str,
+    driver: &'a str,
+}
+
+/// The view as it was drawn, in the terms of a shot file.
+#[derive(Serialize)]
+struct OptionsReport<'a> {
+    size: [u32; 2],
+    samples: u32,
+    channel: ChannelName,
+    time_s: f32,
+    background: String,
+    expressions: &'a [(String, f32)],
+    eye: [f32; 3],
+    target: [f32; 3],
+    up: [f32; 3],
+    fov_y_deg: f32,
+    near: f32,
+    to_light: [f32; 3],
+}
+
+/// Wall clock, milliseconds.
+#[derive(Default, Serialize)]
+struct Timings {
+    load: f64,
+    adapter: f64,
+    pipelines: f64,
+    upload: f64,
+    first_frame: f64,
+    encode: f64,
+    total: f64,
+}
+
+pub(crate) fn run(args: &Args) -> Result<(), Failure> {
+    let start = Instant::now();
+    let mut ms = Timings::default();
+    for path in [Some(&args.output), args.report.as_ref()].into_iter().flatten() {
+        check_writable(path)?;
+    }
+    let shot = args.shot.as_deref().map(Shot::read).transpose()?.unwrap_or_default();
+
+    let spinner = Spinner::new();
+    spinner.step("loading the model");
+    let scene = timed(&mut ms.load, || hikage::import::load(&args.model))?;
+    show_warnings(&scene.warnings);
+    let view = view(args, &shot, &scene)?;
+
+    spinner.step("opening the adapter");
+    let gpu = timed(&mut ms.adapter, || setup::gpu(args.adapter.as_deref()))?;
+    spinner.step("making pipelines");
+    let output = Output { samples: args.samples, ..Output::default() };
+    let mut renderer = timed(&mut ms.pipelines, || Renderer::with_output(&gpu, output))?;
+    spinner.step("uploading");
+    let mut gpu_scene = timed(&mut ms.upload, || renderer.upload(&scene))?;
+    setup::pose(&gpu, &mut gpu_scene, &scene, &args.expression)?;
+    spinner.step("drawing");
+    let picture = timed(&mut ms.first_frame, || renderer.render(&mut gpu_scene, &view))?;
+    let png = timed(&mut ms.encode, || encode_png(&picture))?;
+    drop(spinner);
+
+    deadline::stop();
+    write_atomic(&args.output, &png)?;
+    if let Some(path) = &args.report {
+        let info = gpu.info();
+        ms.total = start.elapsed().as_secs_f64() * 1e3;
+        let report = Report {
+            model: args.model.display().to_string(),
+            output: args.output.display().to_string(),
+            adapter: AdapterReport { name: &info.name, backend: &info.backend, kind: &info.kind, driver: &info.driver },
+            options: options_report(args, &view),
+            ms,
+            draws: gpu_scene.draw_count(),
+            triangles: scene.triangle_count(),
+            gpu_bytes: gpu_scene.memory(),
+            warnings: &scene.warnings,
+        };
+        write_atomic(path, output::json(&report)?.as_bytes())?;
+    }
+    Ok(())
+}
+
+/// What is drawn: the framing, then the shot, then the options of the command line.
+fn view(args: &Args, shot: &Shot, scene: &hikage::scene::Scene) -> Result<View, Failure> {
+    let size = args.size.or(shot.size).unwrap_or([1024, 1024]);
+    let framing = args.view.unwrap_or(ViewName::Portrait).into();
+    let framed = View::framed(scene, framing, args.yaw.unwrap_or(0.0).to_radians(), size);
+    let mut view = framed.clone();
+    view.background = Background::Color(hikage::color::Srgb([0x80; 3]));
+    shot.apply(&mut view).map_err(|what| {
+        let file = args.shot.as_deref().unwrap_or(Path::new(""));
+        Failure::input(format!("{}: {what}", file.display()))
+    })?;
+    if args.view.is_some() || args.yaw.is_some() {
+        view.camera = framed.camera;
+    }
+    if let Some([yaw, pitch]) = args.light.map(|angles| angles.map(f32::to_radians)) {
+        view.lights.directional.to_light = Vec3::new(yaw.sin() * pitch.cos(), pitch.sin(), yaw.cos() * pitch.cos());
+    }
+    if let Some(background) = args.background {
+        view.background = background;
+    }
+    view.time_s = args.time;
+    view.channel = args.channel.into();
+    Ok(view)
+}
+
+fn options_report<'a>(args: &'a Args, view: &View) -> OptionsReport<'a> {
+    OptionsReport {
+        size: view.size,
+        samples: args.samples,
+        channel: args.channel,
+        time_s: view.time_s,
+        background: match &view.background {
+            Background::Color(hikage::color::Srgb([r, g, b])) => format!("#{r:02x}{g:02x}{b:02x}"),
+            _ => "none".into(),
+        },
+        expressions: &args.expression,
+        eye: view.camera.eye.into(),
+        target: view.camera.target.into(),
+        up: view.camera.up.into(),
+        fov_y_deg: view.camera.fov_y_rad.to_degrees(),
+        near: view.camera.near,
+        to_light: view.lights.directional.to_light.into(),
+    }
+}
+
+/// Says early what would otherwise come after a long rendering.
+fn check_writable(path: &Path) -> Result<(), Failure> {
+    let folder = path.parent().filter(|f| !f.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    if !folder.is_dir() {
+        return Err(Failure::input(format!("{}: the folder {} does not exist", path.display(), folder.display())));
+    }
+    if path.exists() && !path.is_file() {
+        return Err(Failure::input(format!("{}: is not a regular file", path.display())));
+    }
+    Ok(())
+}
+
+fn show_warnings(warnings: &[hikage::scene::Warning]) {
+    for warning in warnings.iter().take(SHOWN_WARNINGS) {
+        warn(&format!("{}: {}", warning.pointer, warning.message));
+    }
+    if let Some(more @ 1..) = warnings.len().checked_sub(SHOWN_WARNINGS) {
+        warn(&format!("{more} more; `hikage inspect` lists them"));
+    }
+}
+
+fn timed<T>(ms: &mut f64, work: impl FnOnce() -> T) -> T {
+    let start = Instant::now();
+    let result = work();
+    *ms = start.elapsed().as_secs_f64() * 1e3;
+    result
+}
+
+fn png_path(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    let is_png = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("png"));
+    if is_png {
+        Ok(path)
+    } else {
+        Err("expected a name that ends in .png".into())
+    }
+}

@@ -1,0 +1,50 @@
+//! Steps that several commands share: read files, load a model, pose it.
+
+use std::fs::File;
+use std::io::Read as _;
+use std::path::Path;
+
+use hikage::motion::Pose;
+use hikage::scene::Scene;
+use hikage::{Gpu, GpuScene};
+
+use crate::deadline;
+use crate::failure::Failure;
+
+/// Bytes of the largest text file that is read: shots and shaders.
+const MAX_TEXT_BYTES: u64 = 1 << 20;
+
+/// Reads a file of at most a MiB.
+pub(crate) fn read_small(path: &Path) -> Result<Vec<u8>, Failure> {
+    let fail = |what: &dyn std::fmt::Display| Failure::input(format!("{}: {what}", path.display()));
+    let metadata = std::fs::metadata(path).map_err(|e| fail(&e))?;
+    if !metadata.is_file() {
+        return Err(fail(&"is not a regular file"));
+    }
+    let mut bytes = Vec::new();
+    let file = File::open(path).map_err(|e| fail(&e))?;
+    file.take(MAX_TEXT_BYTES + 1).read_to_end(&mut bytes).map_err(|e| fail(&e))?;
+    if bytes.len() as u64 > MAX_TEXT_BYTES {
+        return Err(fail(&format!("is over the limit of {MAX_TEXT_BYTES} bytes")));
+    }
+    Ok(bytes)
+}
+
+/// Opens the adapter of this name, or the best one.
+pub(crate) fn gpu(adapter: Option<&str>) -> Result<Gpu, Failure> {
+    deadline::enter_gpu();
+    Ok(Gpu::headless(adapter)?)
+}
+
+/// Brings the model on the GPU into its rest pose with these expressions.
+pub(crate) fn pose(
+    gpu: &Gpu,
+    gpu_scene: &mut GpuScene,
+    scene: &Scene,
+    expressions: &[(String, f32)],
+) -> Result<(), Failure> {
+    let mut pose = Pose::rest(scene);
+    pose.set_expressions(scene, expressions)?;
+    gpu_scene.set_pose(gpu, scene, &pose);
+    Ok(())
+}

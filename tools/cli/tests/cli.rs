@@ -1,0 +1,276 @@
+//! The program as its users see it: exit status, messages, and files that are written whole or not at all.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use std::time::{Duration, Instant};
+
+/// One triangle in front of the camera.
+const TRIANGLE: &str = r#"{"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+ "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+ "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0,0,0], "max": [1,1,0]}],
+ "bufferViews": [{"buffer": 0, "byteLength": 36}],
+ "buffers": [{"byteLength": 36,
+   "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]}"#;
+
+/// A fresh folder for one test, with `triangle.gltf` in it.
+fn folder(name: &str) -> PathBuf {
+    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("cli").join(name);
+    let _ = fs::remove_dir_all(&path);
+    fs::create_dir_all(&path).expect("temporary folder");
+    fs::write(path.join("triangle.gltf"), TRIANGLE).expect("model");
+    path
+}
+
+fn hikage(folder: &Path, args: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_hikage"));
+    // Without it, Mesa's device selection writes a line of its own to standard error.
+    command.env("XDG_RUNTIME_DIR", folder);
+    command.args(args).current_dir(folder).output().expect("the program starts")
+}
+
+/// Runs, expects the status, and returns standard error, which is one line for everything but usage.
+#[track_caller]
+fn fails(folder: &Path, args: &[&str], status: i32) -> String {
+    let output = hikage(folder, args);
+    let error = String::from_utf8(output.stderr).expect("UTF-8");
+    assert_eq!(output.status.code(), Some(status), "{args:?}: {error}");
+    assert!(error.starts_with("error: ") || error.contains("\nerror: "), "{error}");
+    if status != 2 {
+        let lines = error.lines().filter(|l| l.starts_with("error: ")).count();
+        assert!(lines == 1 && error.ends_with('\n'), "{error}");
+    }
+    error
+}
+
+#[track_caller]
+fn succeeds(folder: &Path, args: &[&str]) -> String {
+    let output = hikage(folder, args);
+    assert_eq!(output.status.code(), Some(0), "{args:?}: {}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).expect("UTF-8")
+}
+
+fn files(folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).expect("folder");
+    let mut names: Vec<_> = entries.flatten().map(|e| e.file_name().to_string_lossy().into_owned()).collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn help_names_every_command_and_the_exit_statuses() {
+    let dir = folder("help");
+    let help = succeeds(&dir, &["--help"]);
+    for word in ["render", "inspect", "bench", "adapters", "Exit status", "NO_COLOR", "--timeout"] {
+        assert!(help.contains(word), "{word} in {help}");
+    }
+    assert!(!help.contains("compare-references"));
+    for command in ["render", "inspect", "bench", "adapters"] {
+        assert!(succeeds(&dir, &[command, "--help"]).contains("Usage: hikage"), "{command}");
+    }
+    assert!(succeeds(&dir, &["--version"]).starts_with("hikage "));
+}
+
+#[test]
+fn wrong_usage_is_status_2_and_names_the_argument() {
+    let dir = folder("usage");
+    let render = ["render", "triangle.gltf", "-o", "out.png"];
+    for (option, value) in [
+        ("--size", "0x5"),
+        ("--size", "99999999x1"),
+        ("--size", "4x"),
+        ("--yaw", "NaN"),
+        ("--light", "10"),
+        ("--light", "0,91"),
+        ("--background", "#12345"),
+        ("--samples", "2"),
+        ("--expression", "happy=2"),
+        ("--expression", "=1"),
+        ("--view", "sideways"),
+        ("--time", "-1"),
+        ("--channel", "none"),
+        ("--timeout", "0"),
+    ] {
+        let joined = format!("{option}={value}");
+        let error = fails(&dir, &[&render[..], &[joined.as_str()]].concat(), 2);
+        assert!(error.contains(option), "{error}");
+    }
+    fails(&dir, &["render", "triangle.gltf"], 2);
+    fails(&dir, &["render", "triangle.gltf", "-o", "out.jpg"], 2);
+    fails(&dir, &["paint"], 2);
+    assert_eq!(hikage(&dir, &[]).status.code(), Some(2));
+    assert_eq!(files(&dir), ["triangle.gltf"]);
+}
+
+#[test]
+fn a_missing_or_senseless_file_is_status_1_and_named() {
+    let dir = folder("missing");
+    fs::write(dir.join("noise.vrm"), b"\x01\x02\x03 no model").expect("file");
+    fs::write(dir.join("noise.png"), b"no picture").expect("file");
+    fs::write(dir.join("noise.wgsl"), b"fn main( {").expect("file");
+    for name in ["none.vrm", "noise.vrm"] {
+        let error = fails(&dir, &["render", name, "-o", "out.png"], 1);
+        assert!(error.contains(name), "{error}");
+    }
+    for name in ["none.vrm", "none.png", "none.wgsl", "noise.vrm", "noise.png", "noise.wgsl", "."] {
+        let error = fails(&dir, &["inspect", name], 1);
+        assert!(error.contains(name), "{error}");
+    }
+    assert_eq!(files(&dir), ["noise.png", "noise.vrm", "noise.wgsl", "triangle.gltf"]);
+}
+
+#[test]
+fn messages_cannot_steer_the_terminal() {
+    let dir = folder("escape");
+    let error = fails(&dir, &["inspect", "a\u{1b}[31m\nb\u{202e}.vrm"], 1);
+    assert!(!error.contains('\u{1b}') && !error.contains('\u{202e}'), "{error:?}");
+    assert!(error.contains("\\u{1b}[31m\\nb\\u{202e}"), "{error:?}");
+}
+
+#[test]
+fn a_shot_with_a_wrong_key_or_value_is_status_1_and_says_which() {
+    let dir = folder("shot");
+    for (text, named) in [
+        (r#"{"sise": [4, 4]}"#, "sise"),
+        (r#"{"camera": {"fov": 20}}"#, "fov"),
+        (r#"{"light": {"to_light": [0, 0, 0]}}"#, "light.to_light"),
+        (r#"{"light": {"intensity": -1}}"#, "light.intensity"),
+        (r#"{"camera": {"eye": [1e39, 0, 0]}}"#, "eye"),
+        (r#"{"camera": {"fov_y_deg": 180}}"#, "camera.fov_y_deg"),
+        (r#"{"camera": {"near": 5, "far": 2}}"#, "camera.far"),
+        (r#"{"camera": {"eye": [0, 1, 0], "target": [0, 1, 0]}}"#, "camera"),
+        (r#"{"size": [0, 4]}"#, "size"),
+        (r#"{"background": "red"}"#, "background"),
+        (r#"{"size": "#, "line 1"),
+        ("[]", "shot.json"),
+    ] {
+        fs::write(dir.join("shot.json"), text).expect("shot");
+        let error = fails(&dir, &["render", "triangle.gltf", "-o", "out.png", "--shot", "shot.json"], 1);
+        assert!(error.contains(named) && error.contains("shot.json"), "{text}: {error}");
+    }
+    fs::write(dir.join("shot.json"), vec![b' '; 2 << 20]).expect("shot");
+    let error = fails(&dir, &["render", "triangle.gltf", "-o", "out.png", "--shot", "shot.json"], 1);
+    assert!(error.contains("limit"), "{error}");
+    assert_eq!(files(&dir), ["shot.json", "triangle.gltf"]);
+}
+
+#[test]
+fn an_output_that_cannot_be_written_is_said_before_drawing() {
+    let dir = folder("output");
+    fs::create_dir(dir.join("taken.png")).expect("folder");
+    let error = fails(&dir, &["render", "triangle.gltf", "-o", "none/out.png"], 1);
+    assert!(error.contains("none does not exist"), "{error}");
+    let error = fails(&dir, &["render", "triangle.gltf", "-o", "taken.png"], 1);
+    assert!(error.contains("not a regular file"), "{error}");
+    let error = fails(&dir, &["render", "triangle.gltf", "-o", "out.png", "--report", "none/report.json"], 1);
+    assert!(error.contains("none does not exist"), "{error}");
+    assert_eq!(files(&dir), ["taken.png", "triangle.gltf"]);
+}
+
+#[test]
+fn inspect_tells_what_a_model_an_image_and_a_shader_hold() {
+    let dir = folder("inspect");
+    let text = succeeds(&dir, &["inspect", "triangle.gltf"]);
+    assert!(text.contains("1 triangles, 3 vertices") && text.contains("Meshes (1)"), "{text}");
+    assert!(!text.contains('\u{1b}'), "no colours without a terminal");
+    let json: serde_json::Value =
+        serde_json::from_str(&succeeds(&dir, &["inspect", "triangle.gltf", "--json"])).expect("JSON");
+    assert_eq!((&json["triangles"], &json["kind"]), (&1.into(), &"model".into()));
+
+    let picture = hikage::scene::Image { width: 3, height: 2, pixels: vec![200; 24], ..Default::default() };
+    hikage::picture::write_png(dir.join("p.png"), &picture).expect("picture");
+    fs::copy(dir.join("p.png"), dir.join("unnamed")).expect("copy");
+    assert_eq!(succeeds(&dir, &["inspect", "p.png"]), "png, 3 x 2 pixels, 8 bits a channel\n");
+    assert_eq!(succeeds(&dir, &["inspect", "unnamed"]), "png, 3 x 2 pixels, 8 bits a channel\n");
+
+    fs::write(dir.join("s.wgsl"), "@compute @workgroup_size(1) fn main() {}").expect("shader");
+    assert!(succeeds(&dir, &["inspect", "s.wgsl"]).contains("main"));
+}
+
+// From here on an adapter is needed.
+
+#[test]
+fn adapters_are_listed_and_an_unknown_one_is_status_3_and_names_them() {
+    let dir = folder("adapters");
+    let list: Vec<serde_json::Value> =
+        serde_json::from_str(&succeeds(&dir, &["adapters", "--json"])).expect("a JSON list");
+    let name = list[0]["name"].as_str().expect("a name");
+    assert!(succeeds(&dir, &["adapters"]).contains(name));
+
+    let render = ["render", "triangle.gltf", "-o", "out.png", "--adapter", "no such adapter"];
+    let error = fails(&dir, &render, 3);
+    assert!(error.contains(name) && error.contains("no such adapter"), "{error}");
+    assert_eq!(files(&dir), ["triangle.gltf"]);
+}
+
+#[test]
+fn render_writes_the_picture_and_the_report_and_nothing_else() {
+    let dir = folder("render");
+    fs::write(dir.join("shot.json"), r#"{"size": [40, 30], "background": "none", "camera": {"eye": [0, 0, 5]}}"#)
+        .expect("shot");
+    let args = ["render", "triangle.gltf", "-o", "out.png", "--shot", "shot.json", "--report", "report.json"];
+    succeeds(&dir, &args);
+    let first = fs::read(dir.join("out.png")).expect("picture");
+    let picture = hikage::picture::read_png(dir.join("out.png")).expect("PNG");
+    assert_eq!((picture.width, picture.height), (40, 30));
+    let report: serde_json::Value =
+        serde_json::from_slice(&fs::read(dir.join("report.json")).expect("report")).expect("JSON");
+    assert_eq!(report["options"]["size"], serde_json::json!([40, 30]));
+    assert_eq!(report["options"]["background"], "none");
+    assert_eq!(report["options"]["eye"], serde_json::json!([0.0, 0.0, 5.0]));
+    assert!(report["ms"]["total"].as_f64().is_some_and(|ms| ms > 0.0));
+    assert!(report["adapter"]["name"].is_string());
+
+    // Options win over the shot, and the same command gives the same bytes.
+    succeeds(&dir, &args);
+    assert_eq!(fs::read(dir.join("out.png")).expect("picture"), first);
+    succeeds(&dir, &[&args[..], &["--size", "8x9", "--background", "#102030", "--samples", "1"]].concat());
+    let picture = hikage::picture::read_png(dir.join("out.png")).expect("PNG");
+    assert_eq!((picture.width, picture.height, picture.pixels[3]), (8, 9, 255));
+    assert_eq!(files(&dir), ["out.png", "report.json", "shot.json", "triangle.gltf"]);
+}
+
+#[test]
+fn an_unknown_expression_is_status_1_and_leaves_the_old_picture() {
+    let dir = folder("expression");
+    fs::write(dir.join("out.png"), b"old").expect("file");
+    let args = ["render", "triangle.gltf", "-o", "out.png", "--size", "8x8", "--expression", "grin=0.5"];
+    let error = fails(&dir, &args, 1);
+    assert!(error.contains("grin"), "{error}");
+    assert_eq!(fs::read(dir.join("out.png")).expect("file"), b"old");
+    assert_eq!(files(&dir), ["out.png", "triangle.gltf"]);
+}
+
+#[test]
+fn a_timeout_ends_the_program_in_time() {
+    let dir = folder("timeout");
+    let start = Instant::now();
+    let args = [
+        "bench",
+        "triangle.gltf",
+        "--frames",
+        "10000",
+        "--instances",
+        "4096",
+        "--size",
+        "2048x2048",
+        "--timeout",
+        "0.5",
+    ];
+    let output = hikage(&dir, &args);
+    assert!(start.elapsed() < Duration::from_secs(20));
+    let error = String::from_utf8_lossy(&output.stderr);
+    assert!(matches!(output.status.code(), Some(1 | 3)) && error.contains("--timeout"), "{error}");
+}
+
+#[test]
+fn bench_reports_frame_floor_and_their_ratio() {
+    let dir = folder("bench");
+    let args = ["bench", "triangle.gltf", "--size", "32x32", "--frames", "3"];
+    let report: serde_json::Value =
+        serde_json::from_str(&succeeds(&dir, &[&args[..], &["--json"]].concat())).expect("JSON");
+    for key in ["frame_ms", "floor_ms", "floor_ratio", "draws", "triangles"] {
+        assert!(!report[key].is_null(), "{key} in {report}");
+    }
+    assert!(succeeds(&dir, &args).contains("frame / floor"));
+}

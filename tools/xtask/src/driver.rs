@@ -1,0 +1,120 @@
+//! Makes sure that a graphics driver is there: on a bare Linux machine the Vulkan loader and Mesa's software driver.
+
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::{Outcome, Stop, cargo};
+
+/// Folders in which drivers announce themselves to the Vulkan loader.
+const ICD_FOLDERS: [&str; 4] =
+    ["/etc/vulkan/icd.d", "/usr/share/vulkan/icd.d", "/usr/local/share/vulkan/icd.d", "/usr/local/etc/vulkan/icd.d"];
+
+/// Variables that name drivers in place of those folders, the newer one first.
+const OVERRIDES: [&str; 2] = ["VK_DRIVER_FILES", "VK_ICD_FILENAMES"];
+
+const APT_PACKAGES: [&str; 2] = ["libvulkan1", "mesa-vulkan-drivers"];
+
+const REMEDY: &str = "\
+no Vulkan driver was found, and it cannot be installed from here; please run
+
+  Debian, Ubuntu:  sudo apt-get update && sudo apt-get install -y --no-install-recommends mesa-vulkan-drivers libvulkan1
+  Fedora:          sudo dnf install mesa-vulkan-drivers vulkan-loader
+  Arch:            sudo pacman -S vulkan-swrast vulkan-icd-loader
+  Alpine:          sudo apk add mesa-vulkan-swrast vulkan-loader
+
+and try again. They bring a software driver: no graphics card is needed.";
+
+/// How children find the driver.
+#[derive(Default)]
+pub(crate) struct Vulkan {
+    /// Variables that point nowhere and must not reach them.
+    unset: Vec<&'static str>,
+}
+
+impl Vulkan {
+    /// Prepares a child.
+    pub(crate) fn apply(&self, command: &mut Command) {
+        for name in &self.unset {
+            command.env_remove(name);
+        }
+    }
+}
+
+/// Finds a driver, installing Mesa's where that can be done without asking.
+pub(crate) fn ensure() -> Outcome<Vulkan> {
+    // macOS has Metal and Windows has Direct3D 12; both come with the system.
+    if !cfg!(target_os = "linux") {
+        return Ok(Vulkan::default());
+    }
+    let vulkan = Vulkan { unset: dead_overrides() };
+    for name in &vulkan.unset {
+        eprintln!("xtask: {name} points to no driver; it is left out of what is run from here");
+    }
+    let is_named =
+        OVERRIDES.iter().any(|n| !vulkan.unset.contains(n) && std::env::var_os(n).is_some_and(|v| !v.is_empty()));
+    if (is_named || has_icd()) && has_loader() {
+        return Ok(vulkan);
+    }
+    install()?;
+    if has_icd() && has_loader() {
+        Ok(vulkan)
+    } else {
+        Err(Stop(3, REMEDY.into()))
+    }
+}
+
+/// Override variables that are set and name not one file that exists.
+fn dead_overrides() -> Vec<&'static str> {
+    let is_dead = |value: OsString| !std::env::split_paths(&value).any(|path| has_json(&path));
+    OVERRIDES.into_iter().filter(|name| std::env::var_os(name).filter(|v| !v.is_empty()).is_some_and(is_dead)).collect()
+}
+
+/// Whether this is a driver's manifest, or a folder with one.
+fn has_json(path: &Path) -> bool {
+    let is_json = |p: &Path| p.extension().is_some_and(|e| e == "json") && p.is_file();
+    is_json(path) || std::fs::read_dir(path).is_ok_and(|entries| entries.flatten().any(|e| is_json(&e.path())))
+}
+
+fn has_icd() -> bool {
+    let data_home = std::env::var_os("XDG_DATA_HOME")
+        .map(PathBuf::from)
+        .or_else(|| Some(PathBuf::from(std::env::var_os("HOME")?).join(".local/share")));
+    let data_dirs = std::env::var_os("XDG_DATA_DIRS").unwrap_or_default();
+    let shared = std::env::split_paths(&data_dirs).chain(data_home).map(|p| p.join("vulkan/icd.d"));
+    ICD_FOLDERS.iter().map(PathBuf::from).chain(shared).any(|folder| has_json(&folder))
+}
+
+/// Whether the dynamic linker finds the Vulkan loader.
+fn has_loader() -> bool {
+    let named = std::env::var_os("LD_LIBRARY_PATH").unwrap_or_default();
+    let mut folders: Vec<PathBuf> = std::env::split_paths(&named).collect();
+    for base in ["/lib", "/usr/lib", "/usr/local/lib", "/lib64", "/usr/lib64"] {
+        folders.push(base.into());
+        folders.push(Path::new(base).join(format!("{}-linux-gnu", std::env::consts::ARCH)));
+    }
+    if folders.iter().any(|folder| folder.join("libvulkan.so.1").exists()) {
+        return true;
+    }
+    // Elsewhere only the linker's own list knows.
+    let list = Command::new("ldconfig").arg("-p").output().map(|o| o.stdout).unwrap_or_default();
+    String::from_utf8_lossy(&list).contains("libvulkan.so.1")
+}
+
+/// On Debian and its kin, as root: fetches the loader and Mesa's drivers.
+fn install() -> Outcome {
+    let is_root = Command::new("id").arg("-u").output().is_ok_and(|o| o.stdout.trim_ascii() == b"0");
+    let has_apt = Path::new("/usr/bin/apt-get").exists();
+    if !is_root || !has_apt {
+        return Err(Stop(3, REMEDY.into()));
+    }
+    eprintln!("xtask: no Vulkan driver; installing {} with apt-get", APT_PACKAGES.join(" and "));
+    let apt = |args: &[&str]| {
+        let mut command = Command::new("apt-get");
+        // Progress goes to standard error, so that what a task prints stays its own.
+        command.args(args).env("DEBIAN_FRONTEND", "noninteractive").stdout(std::io::stderr());
+        cargo::wait(&mut command).map_err(|Stop(..)| Stop(3, format!("apt-get {} failed\n{REMEDY}", args.join(" "))))
+    };
+    apt(&["-q", "update"])?;
+    apt(&[&["-q", "install", "-y", "--no-install-recommends"], &APT_PACKAGES[..]].concat())
+}
