@@ -2,7 +2,7 @@
 
 use std::{error::Error, path::Path};
 
-use hikage::{Gpu, Renderer, View, golden, import, scene::Framing};
+use hikage::{Gpu, Renderer, View, import, picture, scene::Framing};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let args: Vec<String> = std::env::args().collect();
@@ -13,6 +13,6 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut character = renderer.upload(&scene)?;
     let view = View::framed(&scene, Framing::Portrait, 0.4, [1024, 1024]);
     let picture = renderer.render(&mut character, &view)?;
-    golden::write_png(Path::new(out), &picture)?;
+    picture::write_png(Path::new(out), &picture)?;
     Ok(())
 }

@@ -63,7 +63,8 @@ impl Orbit {
     }
 
     fn eye(&self) -> Vec3 {
-        self.target + Quat::from_rotation_y(self.yaw_rad) * Quat::from_rotation_x(-self.pitch_rad) * Vec3::Z * self.distance
+        self.target
+            + Quat::from_rotation_y(self.yaw_rad) * Quat::from_rotation_x(-self.pitch_rad) * Vec3::Z * self.distance
     }
 }
 

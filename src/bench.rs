@@ -9,7 +9,13 @@ use serde::Serialize;
 use crate::{
     AdapterInfo, Error, Gpu, GpuMemory, GpuScene, Output, Renderer, Result, View,
     motion::Pose,
-    render::{draw_list, pass::floor::{FloorInputs, FloorPass}, pass::opaque::OpaqueInputs, pass::outline::OutlineInputs, pass::transparent::TransparentInputs},
+    render::{
+        draw_list,
+        pass::floor::{FloorInputs, FloorPass},
+        pass::opaque::OpaqueInputs,
+        pass::outline::OutlineInputs,
+        pass::transparent::TransparentInputs,
+    },
     scene::Scene,
 };
 
@@ -248,7 +254,8 @@ impl Clock {
         read.slice(..).map_async(wgpu::MapMode::Read, |_| ());
         gpu.wait(TIMEOUT)?;
         let ticks: Vec<u64> = {
-            let mapped = read.slice(..).get_mapped_range().map_err(|e| Error::Gpu(format!("reading timestamps: {e}")))?;
+            let mapped =
+                read.slice(..).get_mapped_range().map_err(|e| Error::Gpu(format!("reading timestamps: {e}")))?;
             bytemuck::pod_collect_to_vec(&mapped)
         };
         read.unmap();

@@ -101,10 +101,11 @@ impl Gpu {
         let memory = self.device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
         let validation = self.device.push_error_scope(wgpu::ErrorFilter::Validation);
         let value = work();
-        for error in [pollster::block_on(validation.pop()), pollster::block_on(memory.pop())].into_iter().flatten() {
-            return Err(Error::Gpu(error.to_string().replace('\n', " ")));
+        let faults = [pollster::block_on(validation.pop()), pollster::block_on(memory.pop())];
+        match faults.into_iter().flatten().next() {
+            Some(error) => Err(Error::Gpu(error.to_string().replace('\n', " "))),
+            None => Ok(value),
         }
-        Ok(value)
     }
 
     /// Waits until all submitted work is done.

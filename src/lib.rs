@@ -1,15 +1,43 @@
-//! Stylized (NPR) shading of anime characters on wgpu.
+//! Hikage (日陰, "shade"): stylized (NPR) shading of anime characters on wgpu.
+//!
+//! A VRM or glTF character goes in, a toon picture comes out: in an application's own window, or headless on a machine
+//! without a GPU. The shading follows MToon 1.0 clause by clause.
+//!
+//! ```no_run
+//! use hikage::{Gpu, Renderer, View, import, picture, scene::Framing};
+//!
+//! # fn main() -> Result<(), hikage::Error> {
+//! let scene = import::load("character.vrm".as_ref())?;
+//! let gpu = Gpu::headless(None)?;
+//! let mut renderer = Renderer::new(&gpu)?;
+//! let mut character = renderer.upload(&scene)?;
+//! let view = View::framed(&scene, Framing::Portrait, 0.4, [1024, 1024]);
+//! let picture = renderer.render(&mut character, &view)?;
+//! picture::write_png("character.png".as_ref(), &picture)?;
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! An application with a device of its own calls [`Gpu::from_parts`] and [`Renderer::encode_frame`].
+//!
+//! # Conventions
+//!
+//! Right-handed, +Y up, metres, radians; a character faces +Z. Light directions point from the surface to the light. A
+//! light of intensity 1 shows a material's lit colour exactly. Colours are linear RGB unless a type says sRGB. Matrices are
+//! named `target_from_source`. Depth is reversed: 1 at the near plane, 0 at infinity.
+
 pub mod bench;
 pub mod color;
 mod error;
 pub mod golden;
 pub mod gpu;
+pub mod import;
 pub mod material;
 pub mod motion;
 pub mod picture;
 pub mod render;
 pub mod scene;
-pub mod import;
+
 pub use error::{Error, Result};
 pub use gpu::{AdapterInfo, Gpu};
 pub use render::{Background, Channel, GpuMemory, GpuScene, Output, Renderer, View, shaders};

@@ -6,9 +6,7 @@ use hikage::{
     color::{LinearRgb, Srgb},
     material::{Alpha, AlphaMode, Base, Material, Outline, OutlineWidth, Shading, Toon},
     motion::Pose,
-    scene::{
-        Ambient, Influences, Lights, Mesh, MorphTarget, Node, PunctualLight, Scene, Skin, SpotCone, Transform,
-    },
+    scene::{Ambient, Influences, Lights, Mesh, MorphTarget, Node, PunctualLight, Scene, Skin, SpotCone, Transform},
 };
 
 #[path = "support/scene.rs"]
@@ -27,7 +25,11 @@ fn close(found: &[u8], expected: &[u8], tolerance: u8, what: &str) {
 /// Without a hue of its own, so that a green line is what is green.
 fn grey() -> Material {
     let toon = Toon { shade_color: [0.2; 3], ..Toon::default() };
-    Material { base: Base { color: [0.5, 0.5, 0.5, 1.0], texture: None }, shading: Shading::Toon(toon), ..Material::default() }
+    Material {
+        base: Base { color: [0.5, 0.5, 0.5, 1.0], texture: None },
+        shading: Shading::Toon(toon),
+        ..Material::default()
+    }
 }
 
 #[test]
@@ -286,7 +288,8 @@ fn many_lights_still_cut_one_band() {
 fn skinned_bar(per_vertex: usize) -> Scene {
     let mut bar = cube(0.2);
     let count = bar.positions.len();
-    bar.influences = Influences { per_vertex, joints: vec![0; count * per_vertex], weights: vec![0.0; count * per_vertex] };
+    bar.influences =
+        Influences { per_vertex, joints: vec![0; count * per_vertex], weights: vec![0.0; count * per_vertex] };
     for (v, position) in bar.positions.iter().enumerate() {
         let joint = u16::from(position[1] > 0.0);
         // Split evenly over all slots: the sum must still be whole.
@@ -373,10 +376,7 @@ fn an_instance_moves_like_the_camera_moves_back() {
 fn parts_are_numbered_in_the_order_of_nodes() {
     let gpu = gpu();
     let glass = Material { alpha: Alpha { mode: AlphaMode::Blend, ..Alpha::default() }, ..two_tone() };
-    let scene = scene(vec![
-        (square([-0.3, 0.0], 0.2, 0.0), glass),
-        (square([0.3, 0.0], 0.2, 0.0), two_tone()),
-    ]);
+    let scene = scene(vec![(square([-0.3, 0.0], 0.2, 0.0), glass), (square([0.3, 0.0], 0.2, 0.0), two_tone())]);
     let mut ids = view(128, 4.0);
     ids.channel = Channel::PartId;
     let image = render(&gpu, &scene, &ids);

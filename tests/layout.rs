@@ -28,23 +28,69 @@ macro_rules! layout {
 #[test]
 fn structs_match_their_wgsl() {
     let layouts = [
-        layout!("opaque", "PunctualLight", PunctualLightUniform {
-            position, range, color, spot_scale, direction, spot_offset,
-        }),
-        layout!("opaque", "Frame", FrameUniform {
-            clip_from_world, view_from_world, eye, time_s, to_light, focal, light_color, aspect, ambient_sky,
-            punctual_count, ambient_ground, near, punctual,
-        }),
+        layout!(
+            "opaque",
+            "PunctualLight",
+            PunctualLightUniform { position, range, color, spot_scale, direction, spot_offset }
+        ),
+        layout!(
+            "opaque",
+            "Frame",
+            FrameUniform {
+                clip_from_world,
+                view_from_world,
+                eye,
+                time_s,
+                to_light,
+                focal,
+                light_color,
+                aspect,
+                ambient_sky,
+                punctual_count,
+                ambient_ground,
+                near,
+                punctual,
+            }
+        ),
         layout!("opaque", "UvTransform", UvTransformUniform { row_u, row_v }),
-        layout!("opaque", "Material", MaterialUniform {
-            base_color, shade_color, shift, emission, toony, rim_color, rim_fresnel_power, matcap_color, rim_lift,
-            outline_color, outline_width, shift_texture_scale, gi_equalization, rim_lighting_mix, outline_lighting_mix,
-            scroll_per_s, rotation_rad_per_s, alpha_cutoff, normal_scale, base_uv, shade_uv, shift_uv, normal_uv,
-            emission_uv, rim_mask_uv, outline_mask_uv, animation_mask_uv,
-        }),
-        layout!("deform", "DeformGroup", DeformGroup {
-            first_vertex, first_influence, influences_per_vertex, first_joint, first_weight,
-        }),
+        layout!(
+            "opaque",
+            "Material",
+            MaterialUniform {
+                base_color,
+                shade_color,
+                shift,
+                emission,
+                toony,
+                rim_color,
+                rim_fresnel_power,
+                matcap_color,
+                rim_lift,
+                outline_color,
+                outline_width,
+                shift_texture_scale,
+                gi_equalization,
+                rim_lighting_mix,
+                outline_lighting_mix,
+                scroll_per_s,
+                rotation_rad_per_s,
+                alpha_cutoff,
+                normal_scale,
+                base_uv,
+                shade_uv,
+                shift_uv,
+                normal_uv,
+                emission_uv,
+                rim_mask_uv,
+                outline_mask_uv,
+                animation_mask_uv,
+            }
+        ),
+        layout!(
+            "deform",
+            "DeformGroup",
+            DeformGroup { first_vertex, first_influence, influences_per_vertex, first_joint, first_weight }
+        ),
         layout!("deform", "Joint", AffineRows { row_x, row_y, row_z }),
     ];
     for layout in layouts {

@@ -118,8 +118,23 @@ fn mtoon_shading_gi_matcap_and_rim() {
     let list = cases(&file, "cases");
     let p = |s: &str| format!("params.{s}");
     let names = [
-        "base", "shade", "light", "shading_shift", "shift_tex", "shift_tex_scale", "toony", "gi_n", "gi_up", "gi_down",
-        "gi_equalization", "matcap_factor", "matcap_texel", "rim_color", "rim_lift", "rim_power", "rim_mask",
+        "base",
+        "shade",
+        "light",
+        "shading_shift",
+        "shift_tex",
+        "shift_tex_scale",
+        "toony",
+        "gi_n",
+        "gi_up",
+        "gi_down",
+        "gi_equalization",
+        "matcap_factor",
+        "matcap_texel",
+        "rim_color",
+        "rim_lift",
+        "rim_power",
+        "rim_mask",
         "rim_lighting_mix",
     ]
     .map(p);
@@ -157,7 +172,8 @@ fn mtoon_ramp() {
     let file = vectors("mtoon.json");
     let list = cases(&file, "ramp");
     let rows: Vec<Vec<f32>> = list.iter().map(|c| numbers(c, &["NoL", "shift", "toony"])).collect();
-    let found = run(&["mtoon"], "output[out] = mtoon_shading(input[base], input[base + 1u], input[base + 2u]);", &rows, 1);
+    let found =
+        run(&["mtoon"], "output[out] = mtoon_shading(input[base], input[base + 1u], input[base + 2u]);", &rows, 1);
     for (i, (case, found)) in list.iter().zip(&found).enumerate() {
         assert_close("ramp", i, found, &numbers(case, &["shading"]), 2e-5);
     }

@@ -5,7 +5,8 @@ use naga::valid::{Capabilities, ValidationFlags, Validator};
 #[test]
 fn every_entry_validates_with_every_pair_of_options() {
     for (name, text) in hikage::shaders::ENTRIES {
-        let module = naga::front::wgsl::parse_str(text).unwrap_or_else(|e| panic!("{name}: {}", e.emit_to_string(text)));
+        let module =
+            naga::front::wgsl::parse_str(text).unwrap_or_else(|e| panic!("{name}: {}", e.emit_to_string(text)));
         let mut validator = Validator::new(ValidationFlags::all(), Capabilities::empty());
         let info = validator.validate(&module).unwrap_or_else(|e| panic!("{name}: {}", e.emit_to_string(text)));
         let names: Vec<String> = module.overrides.iter().filter_map(|(_, o)| o.name.clone()).collect();

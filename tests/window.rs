@@ -62,7 +62,7 @@ fn the_window_shows_the_character() {
     });
     let shown = seen.expect("a picture");
     let picture = folder.join("screen.png");
-    hikage::golden::write_png(&picture, &shown).expect("a picture file");
+    hikage::picture::write_png(&picture, &shown).expect("a picture file");
     println!("screenshot: {}", picture.display());
     let center = &shown.pixels[(400 * 800 + 400) * 4..][..3];
     let corner = &shown.pixels[(20 * 800 + 20) * 4..][..3];
@@ -95,7 +95,11 @@ fn read_screen(path: &Path) -> Option<hikage::scene::Image> {
     let mut pixels = Vec::with_capacity(width * height * 4);
     for y in 0..height {
         for texel in bytes.get(first + y * line..)?.get(..width * 4)?.chunks_exact(4) {
-            let [b, g, r] = if little_endian { [texel[0], texel[1], texel[2]] } else { [texel[3], texel[2], texel[1]] };
+            let [b, g, r] = if little_endian {
+                [texel[0], texel[1], texel[2]]
+            } else {
+                [texel[3], texel[2], texel[1]]
+            };
             pixels.extend([r, g, b, 255]);
         }
     }

@@ -25,13 +25,21 @@ impl Pose {
         for (name, weight) in weights {
             let Some(index) = expressions.iter().position(|e| e.name == *name) else {
                 let known: Vec<_> = expressions.iter().map(|e| e.name.as_str()).collect();
-                let known = if known.is_empty() { "none".to_owned() } else { known.join(", ") };
+                let known = if known.is_empty() {
+                    "none".to_owned()
+                } else {
+                    known.join(", ")
+                };
                 return Err(Error::Argument {
                     what: format!("expression {name:?}"),
                     message: format!("the model has no such expression; it has: {known}"),
                 });
             };
-            input[index] = if weight.is_finite() { weight.clamp(0.0, 1.0) } else { 0.0 };
+            input[index] = if weight.is_finite() {
+                weight.clamp(0.0, 1.0)
+            } else {
+                0.0
+            };
         }
         for (weight, expression) in input.iter_mut().zip(expressions) {
             if expression.is_binary {
@@ -51,7 +59,8 @@ impl Pose {
                 .sum();
             1.0 - suppressed.min(1.0)
         };
-        let (blink, look_at, mouth) = (keep(|e| e.override_blink), keep(|e| e.override_look_at), keep(|e| e.override_mouth));
+        let (blink, look_at, mouth) =
+            (keep(|e| e.override_blink), keep(|e| e.override_look_at), keep(|e| e.override_mouth));
         self.morph_weights = scene.nodes.iter().map(|n| n.morph_weights.clone()).collect();
         self.materials.clear();
         for (expression, &weight) in expressions.iter().zip(&input) {
@@ -63,7 +72,11 @@ impl Pose {
                 }
             }
             // A binary expression is whole or off, even where another one fades it.
-            let weight = if expression.is_binary && factor < 1.0 { 0.0 } else { weight * factor };
+            let weight = if expression.is_binary && factor < 1.0 {
+                0.0
+            } else {
+                weight * factor
+            };
             if weight > 0.0 {
                 self.add_expression(scene, expression, weight);
             }

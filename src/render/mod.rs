@@ -149,7 +149,8 @@ impl Renderer {
     }
 
     fn submit_frame(&mut self, scene: &mut GpuScene, view: &View, target: &wgpu::TextureView) -> Result<()> {
-        let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
+        let mut encoder =
+            self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
         self.encode_frame(&mut encoder, scene, view, target)?;
         self.gpu.queue.submit([encoder.finish()]);
         Ok(())
@@ -225,7 +226,11 @@ impl Renderer {
         let targets = self.color_targets.as_ref();
         let multisampled = targets.and_then(|t| t.multisampled.as_ref());
         // Samples that are resolved need not be kept.
-        let store = if multisampled.is_some() { wgpu::StoreOp::Discard } else { wgpu::StoreOp::Store };
+        let store = if multisampled.is_some() {
+            wgpu::StoreOp::Discard
+        } else {
+            wgpu::StoreOp::Store
+        };
         encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("colour"),
             color_attachments: &[Some(wgpu::RenderPassColorAttachment {
@@ -255,7 +260,8 @@ impl Renderer {
             Some(t) if t.size == view.size => t,
             _ => PrepassTargets::new(&self.gpu, view.size),
         };
-        let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("channel") });
+        let mut encoder =
+            self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("channel") });
         self.encode_deform(&mut encoder, scene, None);
         // Depth, normal and part id.
         self.prepass.encode(&mut encoder, &PrepassInputs { scene, frame: &self.frame_group, targets: &targets });
@@ -288,17 +294,20 @@ impl Layouts {
         for slot in 0..9 {
             // Only the width mask of the outline (slot 7) is read by vertices.
             let stages = if slot == 7 { both } else { wgpu::ShaderStages::FRAGMENT };
-            entries.push(entry(1 + 2 * slot, stages, wgpu::BindingType::Texture {
-                sample_type: wgpu::TextureSampleType::Float { filterable: true },
-                view_dimension: wgpu::TextureViewDimension::D2,
-                multisampled: false,
-            }));
+            entries.push(entry(
+                1 + 2 * slot,
+                stages,
+                wgpu::BindingType::Texture {
+                    sample_type: wgpu::TextureSampleType::Float { filterable: true },
+                    view_dimension: wgpu::TextureViewDimension::D2,
+                    multisampled: false,
+                },
+            ));
             entries.push(entry(2 + 2 * slot, stages, wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering)));
         }
-        let material = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some("material"),
-            entries: &entries,
-        });
+        let material = gpu
+            .device
+            .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("material"), entries: &entries });
         let surface = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("surface"),
             bind_group_layouts: &[Some(&frame), None, Some(&material)],

@@ -40,7 +40,8 @@ pub(crate) fn read_texels(gpu: &Gpu, texture: &wgpu::Texture, timeout: Duration)
         Ok(Err(e)) => return Err(Error::Gpu(format!("reading the picture back: {e}"))),
         Err(_) => return Err(Error::Gpu("reading the picture back: the adapter gave no answer".to_owned())),
     }
-    let mapped = buffer.slice(..).get_mapped_range().map_err(|e| Error::Gpu(format!("reading the picture back: {e}")))?;
+    let mapped =
+        buffer.slice(..).get_mapped_range().map_err(|e| Error::Gpu(format!("reading the picture back: {e}")))?;
     let mut texels = Vec::with_capacity(row * height as usize);
     for line in mapped.chunks_exact(padded) {
         texels.extend_from_slice(&line[..row]);

@@ -53,9 +53,8 @@ pub fn check(file: &str, bytes: &[u8]) -> Result<ShaderSummary> {
         });
     }
     let fault = |pointer: String, message: String| Error::Input { path: file.to_owned(), pointer, message };
-    let text = std::str::from_utf8(bytes).map_err(|e| {
-        fault(format!("byte {}", e.valid_up_to()), "is not UTF-8; WGSL is UTF-8 text".to_owned())
-    })?;
+    let text = std::str::from_utf8(bytes)
+        .map_err(|e| fault(format!("byte {}", e.valid_up_to()), "is not UTF-8; WGSL is UTF-8 text".to_owned()))?;
     if let Some(depth_fault) = too_deep(text) {
         return Err(fault(depth_fault.0, depth_fault.1));
     }
@@ -109,12 +108,17 @@ fn parse_and_validate(text: &str) -> Result<ShaderSummary, (String, String)> {
     let place = |location: Option<naga::SourceLocation>| {
         location.map_or_else(|| "file".to_owned(), |l| format!("line {}:{}", l.line_number, l.line_position))
     };
-    let module = naga::front::wgsl::parse_str(text)
-        .map_err(|e| (place(e.location(text)), one_line(e.emit_to_string(text))))?;
-    let mut validator = naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::all());
+    let module =
+        naga::front::wgsl::parse_str(text).map_err(|e| (place(e.location(text)), one_line(e.emit_to_string(text))))?;
+    let mut validator =
+        naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::all());
     validator.validate(&module).map_err(|e| (place(e.location(text)), one_line(e.emit_to_string(text))))?;
     if module.entry_points.is_empty() {
-        return Err(("file".to_owned(), "the WGSL text has no entry point; expected at least one @vertex, @fragment or @compute function".to_owned()));
+        return Err((
+            "file".to_owned(),
+            "the WGSL text has no entry point; expected at least one @vertex, @fragment or @compute function"
+                .to_owned(),
+        ));
     }
     let mut seen = std::collections::BTreeSet::new();
     for entry in &module.entry_points {
@@ -123,11 +127,7 @@ fn parse_and_validate(text: &str) -> Result<ShaderSummary, (String, String)> {
         }
     }
     Ok(ShaderSummary {
-        entry_points: module
-            .entry_points
-            .iter()
-            .map(|e| format!("{:?} {}", e.stage, e.name).to_lowercase())
-            .collect(),
+        entry_points: module.entry_points.iter().map(|e| format!("{:?} {}", e.stage, e.name).to_lowercase()).collect(),
         bindings: module
             .global_variables
             .iter()

@@ -31,8 +31,19 @@ pub(crate) struct PrepassTargets {
 }
 
 /// A texture to draw into.
-pub(crate) fn target(gpu: &Gpu, label: &str, size: [u32; 2], samples: u32, format: wgpu::TextureFormat, copied: bool) -> wgpu::Texture {
-    let copy = if copied { wgpu::TextureUsages::COPY_SRC } else { wgpu::TextureUsages::empty() };
+pub(crate) fn target(
+    gpu: &Gpu,
+    label: &str,
+    size: [u32; 2],
+    samples: u32,
+    format: wgpu::TextureFormat,
+    copied: bool,
+) -> wgpu::Texture {
+    let copy = if copied {
+        wgpu::TextureUsages::COPY_SRC
+    } else {
+        wgpu::TextureUsages::empty()
+    };
     gpu.device.create_texture(&wgpu::TextureDescriptor {
         label: Some(label),
         size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },

@@ -71,7 +71,12 @@ impl TextureSet {
     }
 
     /// View and sampler of a scene's texture, or white.
-    pub fn get(&self, scene: &Scene, texture: Option<usize>, encoding: Encoding) -> (&wgpu::TextureView, &wgpu::Sampler) {
+    pub fn get(
+        &self,
+        scene: &Scene,
+        texture: Option<usize>,
+        encoding: Encoding,
+    ) -> (&wgpu::TextureView, &wgpu::Sampler) {
         let texture = texture.and_then(|t| scene.textures.get(t));
         let found = texture.and_then(|t| Some((self.views.get(&(t.image, encoding))?, self.samplers.get(&t.sampler)?)));
         found.unwrap_or((&self.white, &self.default_sampler))
@@ -125,7 +130,8 @@ fn halve(source: &[u8], width: u32, height: u32, encoding: Encoding, tables: &Ta
         for (x, out) in row.chunks_exact_mut(4).enumerate() {
             let left = (2 * x).min(width as usize - 1) * 4;
             let right = (2 * x + 1).min(width as usize - 1) * 4;
-            let texels = [&top[left..left + 4], &top[right..right + 4], &bottom[left..left + 4], &bottom[right..right + 4]];
+            let texels =
+                [&top[left..left + 4], &top[right..right + 4], &bottom[left..left + 4], &bottom[right..right + 4]];
             for c in 0..3 {
                 out[c] = match encoding {
                     Encoding::Srgb => {

@@ -244,7 +244,11 @@ pub fn pack_unit(v: [f32; 3]) -> u32 {
     let n = Vec3::from(v).normalize_or(Vec3::Z);
     let p = n / (n.x.abs() + n.y.abs() + n.z.abs());
     let sign = |x: f32| if x >= 0.0 { 1.0 } else { -1.0 };
-    let (x, y) = if p.z < 0.0 { ((1.0 - p.y.abs()) * sign(p.x), (1.0 - p.x.abs()) * sign(p.y)) } else { (p.x, p.y) };
+    let (x, y) = if p.z < 0.0 {
+        ((1.0 - p.y.abs()) * sign(p.x), (1.0 - p.x.abs()) * sign(p.y))
+    } else {
+        (p.x, p.y)
+    };
     let quantize = |x: f32| u32::from((x.clamp(-1.0, 1.0) * 32767.0).round() as i16 as u16);
     quantize(x) | quantize(y) << 16
 }

@@ -153,7 +153,8 @@ impl Renderer {
             let (view, sampler) = textures.get(scene, texture, encoding);
             let binding = 1 + 2 * slot as u32;
             entries.push(wgpu::BindGroupEntry { binding, resource: wgpu::BindingResource::TextureView(view) });
-            entries.push(wgpu::BindGroupEntry { binding: binding + 1, resource: wgpu::BindingResource::Sampler(sampler) });
+            entries
+                .push(wgpu::BindGroupEntry { binding: binding + 1, resource: wgpu::BindingResource::Sampler(sampler) });
         }
         self.gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some(&material.name),
@@ -209,7 +210,9 @@ impl GpuScene {
         for palette in &self.rig.palettes {
             match palette {
                 Palette::Rigid(node) => joints.push(matrix(*node).into()),
-                Palette::Skin(skin) => joints.extend(skin.iter().map(|(node, bind)| AffineRows::from(matrix(*node) * *bind))),
+                Palette::Skin(skin) => {
+                    joints.extend(skin.iter().map(|(node, bind)| AffineRows::from(matrix(*node) * *bind)))
+                }
             }
         }
         let mut weights: Vec<f32> = Vec::with_capacity(self.deform.weight_count);
@@ -360,7 +363,11 @@ impl Geometry {
                 let group = DeformGroup {
                     first_joint,
                     first_weight,
-                    influences_per_vertex: if skinned { primitive.influences.per_vertex as u32 } else { 0 },
+                    influences_per_vertex: if skinned {
+                        primitive.influences.per_vertex as u32
+                    } else {
+                        0
+                    },
                     ..DeformGroup::default()
                 };
                 parts.push((parts.len() as u32, node_index, primitive, group, rest_matrix));
@@ -401,7 +408,8 @@ impl Geometry {
                 outline_normal: pack_unit(primitive.outline_normals.get(v).copied().unwrap_or(normal)),
             });
             let ([u0, v0], [u1, v1]) = (uv(0, v), uv(1, v));
-            let color = primitive.colors.get(v).map_or([255; 4], |c| c.map(|x| (x.clamp(0.0, 1.0) * 255.0).round() as u8));
+            let color =
+                primitive.colors.get(v).map_or([255; 4], |c| c.map(|x| (x.clamp(0.0, 1.0) * 255.0).round() as u8));
             self.static_vertices.push(StaticVertex { uv: [u0, v0, u1, v1], color, part: id });
             self.vertex_refs.push([group_index, self.morphs.len() as u32]);
             morphs.take(v as u32, &mut self.morphs);
@@ -466,7 +474,8 @@ impl<'a> MorphCursors<'a> {
 /// Packs joints with unorm16 weights whose sum is exactly one: the heaviest takes what rounding leaves.
 fn pack_influences(influences: &Influences, out: &mut Vec<u32>) {
     let per_vertex = influences.per_vertex;
-    for (joints, weights) in influences.joints.chunks_exact(per_vertex).zip(influences.weights.chunks_exact(per_vertex)) {
+    for (joints, weights) in influences.joints.chunks_exact(per_vertex).zip(influences.weights.chunks_exact(per_vertex))
+    {
         let mut codes: Vec<i64> = weights.iter().map(|w| (f64::from(*w) * 65535.0).round() as i64).collect();
         let rest: i64 = 65535 - codes.iter().sum::<i64>();
         if let Some(first) = codes.first_mut() {

@@ -148,7 +148,12 @@ impl View {
         let tan = (camera.fov_y_rad * 0.5).tan();
         let distance = (visible_height * 0.5 / tan).max(visible_width * 0.5 / (tan * aspect));
         // The nearest part of the head stands in front of its middle.
-        let distance = distance + if framing == Framing::Full { (high.z - low.z) * 0.5 } else { head_height * 0.5 };
+        let distance = distance
+            + if framing == Framing::Full {
+                (high.z - low.z) * 0.5
+            } else {
+                head_height * 0.5
+            };
         let eye = target + Quat::from_rotation_y(yaw_rad) * Vec3::Z * distance;
         let near = (distance * 0.05).clamp(1e-4, 0.1);
         Self { size, camera: Camera { eye, near, ..camera }, ..Self::default() }
@@ -158,7 +163,10 @@ impl View {
     pub(crate) fn check(&self) -> Result<()> {
         let fault = |what: &str, message: String| Err(Error::Argument { what: what.to_owned(), message });
         if self.size.iter().any(|&s| s == 0 || s > MAX_TEXTURE_SIDE) {
-            return fault("size", format!("is {}x{}; expected 1 to {MAX_TEXTURE_SIDE} a side", self.size[0], self.size[1]));
+            return fault(
+                "size",
+                format!("is {}x{}; expected 1 to {MAX_TEXTURE_SIDE} a side", self.size[0], self.size[1]),
+            );
         }
         let camera = &self.camera;
         if !(camera.fov_y_rad > 0.0 && camera.fov_y_rad < std::f32::consts::PI) {
@@ -168,7 +176,8 @@ impl View {
             return fault("near plane", format!("is {} m; expected above 0", camera.near));
         }
         let forward = camera.target - camera.eye;
-        if !forward.is_finite() || !camera.eye.is_finite() || !(forward.cross(camera.up).length_squared() > 0.0) {
+        let spanned = forward.cross(camera.up).length_squared();
+        if !camera.eye.is_finite() || !spanned.is_finite() || spanned <= 0.0 {
             return fault("camera", "eye, target and up must be finite and span a plane".to_owned());
         }
         if self.instances.is_empty() {
@@ -201,5 +210,9 @@ fn bounds(scene: &Scene) -> (Vec3, Vec3) {
             }
         }
     }
-    if low.is_finite() && high.is_finite() && low.x <= high.x { (low, high) } else { (Vec3::NEG_ONE, Vec3::ONE) }
+    if low.is_finite() && high.is_finite() && low.x <= high.x {
+        (low, high)
+    } else {
+        (Vec3::NEG_ONE, Vec3::ONE)
+    }
 }

@@ -38,6 +38,7 @@ impl Camera {
 
     /// `clip_from_view` with reverse Z (1 at the near plane, 0 at infinity).
     #[must_use]
+    #[rustfmt::skip]
     pub fn clip_from_view(&self, aspect: f32) -> Mat4 {
         let f = 1.0 / (self.fov_y_rad * 0.5).tan();
         Mat4::from_cols_array(&[

@@ -116,7 +116,12 @@ impl DeformPass {
     }
 
     /// Deforms all vertices of the scene.
-    pub fn encode(&self, encoder: &mut wgpu::CommandEncoder, inputs: &DeformInputs<'_>, timestamps: Option<wgpu::ComputePassTimestampWrites<'_>>) {
+    pub fn encode(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        inputs: &DeformInputs<'_>,
+        timestamps: Option<wgpu::ComputePassTimestampWrites<'_>>,
+    ) {
         let buffers = &inputs.scene.deform;
         let mut pass = encoder
             .begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("deform"), timestamp_writes: timestamps });

@@ -20,14 +20,19 @@ pub(crate) struct FloorInputs<'a> {
 impl FloorPass {
     pub fn new(gpu: &Gpu, layouts: &Layouts, output: Output) -> Self {
         let module = shaders::module(&gpu.device, "floor");
-        let pipeline = color_pipeline(gpu, layouts, output, &ColorPipeline {
-            label: "floor",
-            module: &module,
-            constants: &[],
-            cull: Some(wgpu::Face::Back),
-            blend: false,
-            write_depth: true,
-        });
+        let pipeline = color_pipeline(
+            gpu,
+            layouts,
+            output,
+            &ColorPipeline {
+                label: "floor",
+                module: &module,
+                constants: &[],
+                cull: Some(wgpu::Face::Back),
+                blend: false,
+                write_depth: true,
+            },
+        );
         Self { pipeline }
     }
 

@@ -144,7 +144,8 @@ pub(crate) fn vertex_buffers() -> [Option<wgpu::VertexBufferLayout<'static>>; 3]
     const STATIC: &[wgpu::VertexAttribute] = &wgpu::vertex_attr_array![2 => Float32x4, 3 => Unorm8x4, 4 => Uint32];
     const INSTANCE: &[wgpu::VertexAttribute] =
         &wgpu::vertex_attr_array![5 => Float32x4, 6 => Float32x4, 7 => Float32x4];
-    let layout = |array_stride, step_mode, attributes| Some(wgpu::VertexBufferLayout { array_stride, step_mode, attributes });
+    let layout =
+        |array_stride, step_mode, attributes| Some(wgpu::VertexBufferLayout { array_stride, step_mode, attributes });
     [
         layout(24, wgpu::VertexStepMode::Vertex, DEFORMED),
         layout(24, wgpu::VertexStepMode::Vertex, STATIC),
@@ -163,7 +164,12 @@ pub(crate) struct ColorPipeline<'a> {
 }
 
 /// Pipeline of a pass that draws into the colour target.
-pub(crate) fn color_pipeline(gpu: &Gpu, layouts: &Layouts, output: Output, desc: &ColorPipeline<'_>) -> wgpu::RenderPipeline {
+pub(crate) fn color_pipeline(
+    gpu: &Gpu,
+    layouts: &Layouts,
+    output: Output,
+    desc: &ColorPipeline<'_>,
+) -> wgpu::RenderPipeline {
     let options = || wgpu::PipelineCompilationOptions { constants: desc.constants, ..Default::default() };
     gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some(desc.label),

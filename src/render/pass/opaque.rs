@@ -28,18 +28,29 @@ impl OpaquePass {
     }
 
     /// The pipeline for a material, made on first use.
-    pub fn pipeline(&mut self, gpu: &Gpu, layouts: &Layouts, flags: SurfaceFlags, material: &Material) -> wgpu::RenderPipeline {
+    pub fn pipeline(
+        &mut self,
+        gpu: &Gpu,
+        layouts: &Layouts,
+        flags: SurfaceFlags,
+        material: &Material,
+    ) -> wgpu::RenderPipeline {
         let make = || {
             let mut constants = flags.constants();
             constants.push(encode_constant(self.output));
-            color_pipeline(gpu, layouts, self.output, &ColorPipeline {
-                label: "opaque",
-                module: &self.module,
-                constants: &constants,
-                cull: surface_cull(material),
-                blend: false,
-                write_depth: true,
-            })
+            color_pipeline(
+                gpu,
+                layouts,
+                self.output,
+                &ColorPipeline {
+                    label: "opaque",
+                    module: &self.module,
+                    constants: &constants,
+                    cull: surface_cull(material),
+                    blend: false,
+                    write_depth: true,
+                },
+            )
         };
         self.pipelines.entry((flags, material.double_sided)).or_insert_with(make).clone()
     }

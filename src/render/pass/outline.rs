@@ -81,14 +81,19 @@ impl OutlinePass {
                 ("OUTLINE_SHADED", flag(key.shaded)),
                 ("OUTLINE_BLEND", flag(key.blend)),
             ]);
-            color_pipeline(gpu, layouts, self.output, &ColorPipeline {
-                label: "outline",
-                module: &self.module,
-                constants: &constants,
-                cull: Some(wgpu::Face::Front),
-                blend: key.blend,
-                write_depth: key.write_depth,
-            })
+            color_pipeline(
+                gpu,
+                layouts,
+                self.output,
+                &ColorPipeline {
+                    label: "outline",
+                    module: &self.module,
+                    constants: &constants,
+                    cull: Some(wgpu::Face::Front),
+                    blend: key.blend,
+                    write_depth: key.write_depth,
+                },
+            )
         };
         Some(self.pipelines.entry(key).or_insert_with(make).clone())
     }

@@ -34,7 +34,13 @@ impl PrepassPass {
     }
 
     /// The pipeline for a material, made on first use.
-    pub fn pipeline(&mut self, gpu: &Gpu, layouts: &Layouts, flags: SurfaceFlags, material: &Material) -> wgpu::RenderPipeline {
+    pub fn pipeline(
+        &mut self,
+        gpu: &Gpu,
+        layouts: &Layouts,
+        flags: SurfaceFlags,
+        material: &Material,
+    ) -> wgpu::RenderPipeline {
         let alpha_test = material.alpha.mode != AlphaMode::Opaque;
         // Without a cut-out nothing is sampled: one pipeline serves all.
         let flags = if alpha_test { flags } else { SurfaceFlags::default() };
@@ -74,7 +80,10 @@ impl PrepassPass {
                 view,
                 depth_slice: None,
                 resolve_target: None,
-                ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT), store: wgpu::StoreOp::Store },
+                ops: wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+                    store: wgpu::StoreOp::Store,
+                },
             })
         };
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {

@@ -28,18 +28,29 @@ impl TransparentPass {
     }
 
     /// The pipeline for a material, made on first use.
-    pub fn pipeline(&mut self, gpu: &Gpu, layouts: &Layouts, flags: SurfaceFlags, material: &Material) -> wgpu::RenderPipeline {
+    pub fn pipeline(
+        &mut self,
+        gpu: &Gpu,
+        layouts: &Layouts,
+        flags: SurfaceFlags,
+        material: &Material,
+    ) -> wgpu::RenderPipeline {
         let make = || {
             let mut constants = flags.constants();
             constants.push(encode_constant(self.output));
-            color_pipeline(gpu, layouts, self.output, &ColorPipeline {
-                label: "transparent",
-                module: &self.module,
-                constants: &constants,
-                cull: surface_cull(material),
-                blend: true,
-                write_depth: material.alpha.write_depth,
-            })
+            color_pipeline(
+                gpu,
+                layouts,
+                self.output,
+                &ColorPipeline {
+                    label: "transparent",
+                    module: &self.module,
+                    constants: &constants,
+                    cull: surface_cull(material),
+                    blend: true,
+                    write_depth: material.alpha.write_depth,
+                },
+            )
         };
         self.pipelines.entry((flags, material.double_sided, material.alpha.write_depth)).or_insert_with(make).clone()
     }
