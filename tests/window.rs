@@ -7,6 +7,26 @@ use std::{
     time::{Duration, Instant},
 };
 
+#[path = "support/gltf.rs"]
+mod gltf;
+
+/// An unlit red square, 2 m wide, around (0, 1, 0).
+fn red_square() -> Vec<u8> {
+    use gltf::{F32, Glb, floats};
+    let mut glb = Glb::new();
+    let corners = [-1., 0., 0., 1., 0., 0., 1., 2., 0., -1., 0., 0., 1., 2., 0., -1., 2., 0.];
+    glb.attribute("POSITION", F32, "VEC3", &floats(&corners), 6, false);
+    glb.primitive()["material"] = serde_json::json!(0);
+    glb.push(
+        "materials",
+        serde_json::json!({
+            "pbrMetallicRoughness": {"baseColorFactor": [1, 0, 0, 1]}, "extensions": {"KHR_materials_unlit": {}}
+        }),
+    );
+    glb.json["extensionsUsed"] = serde_json::json!(["KHR_materials_unlit"]);
+    glb.bytes()
+}
+
 /// Ends the process when the test ends, however it ends.
 struct Killed(Child);
 
@@ -27,8 +47,8 @@ fn the_window_shows_the_character() {
     }
     let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("window");
     fs::create_dir_all(&folder).expect("a folder for the screen");
-    let model = folder.join("sphere.glb");
-    fs::write(&model, support::sphere_glb()).expect("a model");
+    let model = folder.join("square.glb");
+    fs::write(&model, red_square()).expect("a model");
     let screen = folder.join("Xvfb_screen0");
     let _ = fs::remove_file(&screen);
 
@@ -67,7 +87,7 @@ fn the_window_shows_the_character() {
     let center = &shown.pixels[(400 * 800 + 400) * 4..][..3];
     let corner = &shown.pixels[(20 * 800 + 20) * 4..][..3];
     assert_eq!(corner, [0x9f, 0xb4, 0xc7], "the background stands in the corner");
-    assert!(center[0] > 200 && center[1] < 140, "the red sphere stands in the middle: {center:?}");
+    assert!(center[0] > 200 && center[1] < 140, "the red square stands in the middle: {center:?}");
 }
 
 fn wait_for(what: &str, mut ready: impl FnMut() -> bool) {
