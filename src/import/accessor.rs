@@ -110,7 +110,14 @@ fn read<'a>(json: &Json, views: &'a [View<'a>], limits: &Limits) -> Result<Acces
                     json.fault(format!("found byteStride {stride}, expected at least the element size {packed}"))
                 );
             }
-            let needed = needed_bytes(count, stride, packed).ok_or_else(|| json.fault("accessor range overflows"))?;
+            // The padding of the last column of the last matrix may be missing.
+            let padding = if columns > 1 {
+                packed.checked_div(columns).unwrap_or(0).saturating_sub(rows.saturating_mul(component.size()))
+            } else {
+                0
+            };
+            let needed = needed_bytes(count, stride, packed.saturating_sub(padding))
+                .ok_or_else(|| json.fault("accessor range overflows"))?;
             if needed > bytes.len() as u64 {
                 return Err(json.fault(format!(
                     "accessor range: count {count} of {packed} bytes at stride {stride} needs {needed} bytes, the bufferView has {}",

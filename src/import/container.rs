@@ -60,12 +60,11 @@ fn split_glb<'a>(bytes: &'a [u8], limits: &Limits) -> Result<Container<'a>> {
             ),
         ));
     }
-    // Bytes after the declared length belong to no chunk.
-    let body = bytes.get(..length).unwrap_or(bytes);
+    // No chunk starts after the declared length, but the last one may end after it: some writers forget padding.
     let (mut json, mut bin, mut at, mut number) = (None, None, 12usize, 0usize);
-    while at < body.len() {
+    while at < length {
         let fault = |message: String| Fault::new(format!("chunk at byte {at}"), message);
-        let (Some(size), Some(kind)) = (word(body, at), word(body, at.saturating_add(4))) else {
+        let (Some(size), Some(kind)) = (word(bytes, at), word(bytes, at.saturating_add(4))) else {
             // A few padding bytes at the end hold no chunk header.
             if number == 0 {
                 return Err(fault("GLB chunk header truncated".into()));
@@ -73,11 +72,11 @@ fn split_glb<'a>(bytes: &'a [u8], limits: &Limits) -> Result<Container<'a>> {
             break;
         };
         let start = at.saturating_add(8);
-        let end = start.checked_add(size as usize).filter(|e| *e <= body.len());
-        let data = end.and_then(|e| body.get(start..e)).ok_or_else(|| {
+        let end = start.checked_add(size as usize).filter(|e| *e <= bytes.len());
+        let data = end.and_then(|e| bytes.get(start..e)).ok_or_else(|| {
             fault(format!(
                 "GLB chunk length says {size} bytes, the file ends after {}",
-                body.len().saturating_sub(start)
+                bytes.len().saturating_sub(start)
             ))
         })?;
         match kind {

@@ -46,7 +46,7 @@ use std::path::Path;
 
 use crate::Result;
 use crate::material::{Material, Origin};
-use crate::scene::{Character, Mesh, Scene, Source};
+use crate::scene::{Character, Mesh, Node, Scene, Source};
 
 pub use fault::Limits;
 use fault::{Fault, quoted};
@@ -132,9 +132,10 @@ fn read(bytes: &[u8], folder: Option<&Path>, limits: &Limits) -> fault::Result<S
     let mut budget = geometry::Budget::default();
     let mut scene = Scene { source, skins, ..Scene::default() };
     let mut needs_default = false;
-    for (index, json) in mesh_json.iter().enumerate() {
-        let users = graph.nodes.iter().filter(|n| n.mesh == Some(index));
-        let joints = users.filter_map(|n| scene.skins.get(n.skin?)).map(|s| s.joints.len()).min();
+    let users = nodes_of_meshes(&graph.nodes, mesh_json.len());
+    for (json, users) in mesh_json.iter().zip(&users) {
+        let skins = users.iter().filter_map(|n| scene.skins.get(graph.nodes.get(*n)?.skin?));
+        let joints = skins.map(|s| s.joints.len()).min();
         let cx = geometry::Context {
             accessors: &accessors,
             materials: &materials.list,
@@ -151,7 +152,7 @@ fn read(bytes: &[u8], folder: Option<&Path>, limits: &Limits) -> fault::Result<S
     let cx = animation::Context { accessors: &accessors, graph: &graph, meshes: &scene.meshes, limits };
     scene.animations = animation::read_all(&root, &cx, &mut budget, &mut warnings)?;
     scene.nodes = graph.nodes.clone();
-    fill_morph_weights(&mut scene, &mesh_json, &mut warnings)?;
+    fill_morph_weights(&mut scene, &mesh_json, &mut budget, limits, &mut warnings)?;
     scene.character = read_character(&root, vrm1, vrm0, &graph, &mut scene, limits, &mut warnings)?;
     scene.images = textures.decode(&views, folder, limits, &mut warnings)?;
     scene.textures = textures.textures;
@@ -159,6 +160,17 @@ fn read(bytes: &[u8], folder: Option<&Path>, limits: &Limits) -> fault::Result<S
     checks::check(&scene, &mut warnings);
     scene.warnings = warnings.finish();
     Ok(scene)
+}
+
+/// Nodes that carry each mesh.
+fn nodes_of_meshes(nodes: &[Node], meshes: usize) -> Vec<Vec<usize>> {
+    let mut users = vec![Vec::new(); meshes];
+    for (index, node) in nodes.iter().enumerate() {
+        if let Some(list) = node.mesh.and_then(|m| users.get_mut(m)) {
+            list.push(index);
+        }
+    }
+    users
 }
 
 /// Checks versions and extensions.
@@ -239,25 +251,32 @@ fn default_material() -> Material {
 }
 
 /// Weights at rest: the node's, else the mesh's, else 0.
-fn fill_morph_weights(scene: &mut Scene, meshes: &[Json], warnings: &mut Warnings) -> fault::Result<()> {
+fn fill_morph_weights(
+    scene: &mut Scene,
+    meshes: &[Json],
+    budget: &mut geometry::Budget,
+    limits: &Limits,
+    warnings: &mut Warnings,
+) -> fault::Result<()> {
     let mut defaults = Vec::with_capacity(meshes.len());
     for mesh in meshes {
         let weights = mesh.array("weights")?.iter().map(Json::as_f32).collect::<fault::Result<Vec<f32>>>()?;
         defaults.push(weights);
     }
-    for (index, node) in scene.nodes.iter_mut().enumerate() {
+    for node in &mut scene.nodes {
         let Some(mesh) = node.mesh else {
             node.morph_weights.clear();
             continue;
         };
         let targets = scene.meshes.get(mesh).map_or(0, |m| m.morph_names.len());
+        budget.bytes("/nodes", (targets as u64).saturating_mul(4), limits)?;
         if node.morph_weights.is_empty() {
             node.morph_weights = defaults.get(mesh).cloned().unwrap_or_default();
         }
         if !node.morph_weights.is_empty() && node.morph_weights.len() != targets {
             warnings.add(
                 format!("/meshes/{mesh}"),
-                format!("number of morph weights is not that of the {targets} targets (node {index})"),
+                format!("a node has another number of morph weights than the mesh has targets ({targets})"),
             );
         }
         node.morph_weights.resize(targets, 0.0);
@@ -276,7 +295,8 @@ fn read_character(
 ) -> fault::Result<Option<Character>> {
     let targets: Vec<usize> = scene.meshes.iter().map(|m| m.morph_names.len()).collect();
     let materials: Vec<String> = root.objects("materials")?.iter().map(Json::name).collect::<fault::Result<_>>()?;
-    let cx = vrm1::Context { graph, targets: &targets, materials: &materials };
+    let users = nodes_of_meshes(&graph.nodes, targets.len());
+    let cx = vrm1::Context { graph, targets: &targets, users: &users, materials: &materials };
     if let Some(ext) = vrm1 {
         let mut character = vrm1::read(&ext, &cx, warnings);
         if let Some(springs) = root.extension("VRMC_springBone")? {
@@ -286,7 +306,7 @@ fn read_character(
         return Ok(Some(character));
     }
     if let Some(ext) = vrm0 {
-        let mut character = vrm0::read(&ext, &cx, warnings);
+        let mut character = vrm0::read(&ext, &cx, limits, warnings);
         vrm0::read_springs(&ext, &cx, &mut scene.nodes, &mut character, limits, warnings);
         return Ok(Some(character));
     }

@@ -3,7 +3,7 @@
 
 #![allow(clippy::arithmetic_side_effects, reason = "float vectors cannot overflow; integers use checked methods")]
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use glam::{Mat4, Vec3};
 
@@ -173,9 +173,12 @@ pub(super) fn assign(scene: &mut Scene) {
     let world = scene.rest_world_from_nodes();
     let head = find_head(scene, &world);
     let driven = expression_targets(scene);
+    // The first node of each mesh stands for it.
+    let carriers: BTreeMap<usize, usize> =
+        scene.nodes.iter().enumerate().rev().filter_map(|(i, n)| Some((n.mesh?, i))).collect();
     let mut roles: Vec<Vec<Role>> = Vec::new();
     for (index, mesh) in scene.meshes.iter().enumerate() {
-        let carrier = scene.nodes.iter().position(|n| n.mesh == Some(index));
+        let carrier = carriers.get(&index).copied();
         let node_name = carrier.and_then(|c| scene.nodes.get(c)).map_or("", |n| n.name.as_str());
         let list = mesh.primitives.iter().map(|primitive| {
             let material = scene.materials.get(primitive.material).map_or("", |m| m.name.as_str());

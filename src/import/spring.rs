@@ -1,5 +1,7 @@
 //! `VRMC_springBone` 1.0 with `VRMC_springBone_extended_collider`, and `VRMC_node_constraint`.
 
+use std::collections::BTreeSet;
+
 use glam::Vec3;
 
 use crate::scene::{Character, Collider, ColliderShape, ConstraintKind, NodeConstraint, Spring, SpringJoint};
@@ -27,7 +29,8 @@ pub(super) fn read(ext: &Json, graph: &Graph, character: &mut Character, limits:
     for group in ext.list("colliderGroups") {
         let list = group.list("colliders");
         let known = list.iter().filter_map(|c| from_file.get(c.as_index(from_file.len(), "").ok()?).copied().flatten());
-        groups.push(known.collect());
+        let distinct: BTreeSet<usize> = known.collect();
+        groups.push(distinct.into_iter().collect());
     }
     let mut taken = vec![false; graph.nodes.len()];
     // References to colliders are copied for each spring, so their number needs a bound.

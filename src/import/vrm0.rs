@@ -16,7 +16,7 @@ use super::vrm1::{Context, check_bones, first_person, node_targets, range_map};
 use super::warnings::Warnings;
 
 /// Reads the extension.
-pub(super) fn read(ext: &Json, cx: &Context, warnings: &mut Warnings) -> Character {
+pub(super) fn read(ext: &Json, cx: &Context, limits: &Limits, warnings: &mut Warnings) -> Character {
     let mut character = Character { vrm_version: "0.x".into(), meta: meta(&ext.at("meta")), ..Character::default() };
     for json in ext.at("humanoid").list("humanBones") {
         match (bone(json.text("bone")), cx.graph.maybe_node(&json, "node")) {
@@ -33,15 +33,19 @@ pub(super) fn read(ext: &Json, cx: &Context, warnings: &mut Warnings) -> Charact
         }
     }
     check_bones(&character.bones, ext.pointer(), cx.graph, warnings);
+    let mut materials: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
+    for (index, name) in cx.materials.iter().enumerate() {
+        materials.entry(name).or_default().push(index);
+    }
+    let mut left = limits.nodes.saturating_mul(10);
     for json in ext.at("blendShapeMaster").list("blendShapeGroups") {
-        character.expressions.push(expression(&json, cx, warnings));
+        character.expressions.push(expression(&json, cx, &materials, &mut left, warnings));
     }
     let person = ext.at("firstPerson");
     character.look_at = person.is_object().then(|| look_at(&person));
     for json in person.list("meshAnnotations") {
-        let nodes = nodes_of_mesh(&json, cx);
-        for node in nodes {
-            character.first_person.insert(node, first_person(json.text("firstPersonFlag")));
+        for node in nodes_of_mesh(&json, cx) {
+            character.first_person.insert(*node, first_person(json.text("firstPersonFlag")));
         }
     }
     character
@@ -76,9 +80,9 @@ fn meta(json: &Json) -> Meta {
 }
 
 /// Nodes that carry the mesh of an entry: VRM 0.x refers to meshes, 1.0 to nodes.
-fn nodes_of_mesh(json: &Json, cx: &Context) -> Vec<usize> {
-    let Some(mesh) = json.maybe_index("mesh", cx.targets.len()) else { return Vec::new() };
-    cx.graph.nodes.iter().enumerate().filter(|(_, n)| n.mesh == Some(mesh)).map(|(i, _)| i).collect()
+fn nodes_of_mesh<'a>(json: &Json, cx: &Context<'a>) -> &'a [usize] {
+    let mesh = json.maybe_index("mesh", cx.users.len());
+    mesh.and_then(|m| cx.users.get(m)).map_or(&[], Vec::as_slice)
 }
 
 /// VRM 1.0's name of a preset.
@@ -105,14 +109,26 @@ fn preset(name: &str) -> Option<&'static str> {
     })
 }
 
-fn expression(json: &Json, cx: &Context, warnings: &mut Warnings) -> Expression {
+fn expression(
+    json: &Json,
+    cx: &Context,
+    materials: &BTreeMap<&str, Vec<usize>>,
+    left: &mut u64,
+    warnings: &mut Warnings,
+) -> Expression {
     let preset = preset(json.text("presetName"));
     let name = preset.map_or_else(|| json.text("name").chars().take(1000).collect(), str::to_owned);
     let mut out =
         Expression { name, preset: preset.is_some(), is_binary: json.flag("isBinary"), ..Expression::default() };
     for bind in json.list("binds") {
         let before = out.morphs.len();
-        for node in nodes_of_mesh(&bind, cx) {
+        for &node in nodes_of_mesh(&bind, cx) {
+            // One entry counts for every node of the mesh, so a small file could ask for any number.
+            *left = left.saturating_sub(1);
+            if *left == 0 {
+                warnings.add(bind.pointer(), "too many binds of expressions: the rest is left out");
+                return out;
+            }
             if let Some(target) = bind.maybe_index("index", node_targets(cx, node)) {
                 out.morphs.push(MorphBind { node, target, weight: bind.f32_or("weight", 100.0) / 100.0 });
             }
@@ -122,10 +138,10 @@ fn expression(json: &Json, cx: &Context, warnings: &mut Warnings) -> Expression 
         }
     }
     for value in json.list("materialValues") {
-        let name = value.text("materialName");
         let mut known = false;
-        for (material, _) in cx.materials.iter().enumerate().filter(|(_, n)| *n == name) {
-            known |= material_value(material, &value, &mut out);
+        for material in materials.get(value.text("materialName")).into_iter().flatten() {
+            *left = left.saturating_sub(1);
+            known |= *left > 0 && material_value(*material, &value, &mut out);
         }
         if !known {
             warnings.add(value.pointer(), "expression drives an unknown material or property: bind skipped");

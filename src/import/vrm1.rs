@@ -19,6 +19,8 @@ pub(super) struct Context<'a> {
     pub(super) graph: &'a Graph,
     /// Morph targets of each mesh.
     pub(super) targets: &'a [usize],
+    /// Nodes that carry each mesh.
+    pub(super) users: &'a [Vec<usize>],
     /// Names of the materials.
     pub(super) materials: &'a [String],
 }
