@@ -49,8 +49,10 @@ impl Geometry for Mesh<'_> {
         self.normals.get(self.vertex(face, corner)).copied().unwrap_or_default()
     }
 
+    /// MikkTSpace counts v upwards, as normal maps do; glTF counts it downwards.
     fn tex_coord(&self, face: usize, corner: usize) -> [f32; 2] {
-        self.uvs.get(self.vertex(face, corner)).copied().unwrap_or_default()
+        let [u, v] = self.uvs.get(self.vertex(face, corner)).copied().unwrap_or_default();
+        [u, 1.0 - v]
     }
 
     fn set_tangent(&mut self, space: Option<TangentSpace>, face: usize, corner: usize) {
