@@ -201,6 +201,14 @@ fn vertex_colours_get_an_alpha_and_white_ones_are_dropped() {
     let mut glb = Glb::triangle();
     glb.attribute("COLOR_0", F32, "VEC4", &floats(&[1.0; 12]), 3, false);
     assert!(first(&glb.load().expect("loads")).colors.is_empty());
+
+    // MToon ignores them.
+    let mut glb = Glb::triangle();
+    glb.attribute("COLOR_0", F32, "VEC4", &floats(&[0.5; 12]), 3, false);
+    glb.primitive()["material"] = json!(0);
+    glb.push("materials", json!({"extensions": {"VRMC_materials_mtoon": {"specVersion": "1.0"}}}));
+    glb.json["extensionsUsed"] = json!(["VRMC_materials_mtoon"]);
+    assert!(first(&glb.load().expect("loads")).colors.is_empty());
 }
 
 /// A triangle skinned to `joints` joints.
