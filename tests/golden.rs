@@ -58,7 +58,11 @@ fn toon(change: impl FnOnce(&mut Toon)) -> Material {
 
 /// A picture with a clear top left: quarters of four colours on a grid.
 fn quarters(x: u32, y: u32) -> [u8; 4] {
-    let grid = if x % 8 == 0 || y % 8 == 0 { 60 } else { 0 };
+    let grid = if x.is_multiple_of(8) || y.is_multiple_of(8) {
+        60
+    } else {
+        0
+    };
     let [r, g, b] = match (x < 32, y < 32) {
         (true, true) => [250, 120, 110],
         (false, true) => [240, 220, 90],
