@@ -7,13 +7,13 @@
 //! use hikage::{Gpu, Renderer, View, import, picture, scene::Framing};
 //!
 //! # fn main() -> Result<(), hikage::Error> {
-//! let scene = import::load("character.vrm".as_ref())?;
+//! let scene = import::load("character.vrm")?;
 //! let gpu = Gpu::headless(None)?;
 //! let mut renderer = Renderer::new(&gpu)?;
 //! let mut character = renderer.upload(&scene)?;
 //! let view = View::framed(&scene, Framing::Portrait, 0.4, [1024, 1024]);
-//! let picture = renderer.render(&mut character, &view)?;
-//! picture::write_png("character.png".as_ref(), &picture)?;
+//! let image = renderer.render(&mut character, &view)?;
+//! picture::write_png("character.png", &image)?;
 //! # Ok(())
 //! # }
 //! ```
@@ -41,3 +41,8 @@ pub mod scene;
 pub use error::{Error, Result};
 pub use gpu::{AdapterInfo, Gpu};
 pub use render::{Background, Channel, GpuMemory, GpuScene, Output, Renderer, View, shaders};
+
+/// The code of the README compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
