@@ -1,6 +1,7 @@
 //! The renderer: a frame as one list of calls.
 
 pub(crate) mod draw_list;
+mod geometry;
 pub(crate) mod pass;
 mod readback;
 pub mod shaders;

@@ -1,25 +1,23 @@
 //! Scene to GPU: one vertex buffer, one index buffer, one bind group a material, draws merged by material.
 
-use std::{
-    borrow::Cow,
-    collections::{BTreeMap, HashMap},
-};
+use std::{borrow::Cow, collections::BTreeMap};
 
-use glam::{Mat4, Vec3};
+use glam::Mat4;
 use wgpu::util::DeviceExt;
 
 use super::{
     Renderer,
     draw_list::Draw,
+    geometry::{Geometry, Palette, Part, Rig},
     pass::{Driven, SurfaceFlags, deform::DeformBuffers},
     textures::{Encoding, TextureSet},
-    uniforms::{AffineRows, DeformGroup, DeformVertex, MaterialUniform, MorphEntry, StaticVertex, pack_unit},
+    uniforms::{AffineRows, MaterialUniform},
 };
 use crate::{
     Gpu, Result,
     material::{AlphaMode, Material, Shading, TextureRef},
     motion::Pose,
-    scene::{Image, Influences, MorphTarget, Primitive, Scene, Skin},
+    scene::{Image, Scene},
 };
 
 /// A scene on the GPU, ready to be drawn. Made by [`Renderer::upload`].
@@ -54,22 +52,6 @@ pub struct GpuMemory {
     pub textures: u64,
     /// Vertices, indices, morphs, influences, uniforms.
     pub geometry: u64,
-}
-
-/// What turns a [`Pose`] into matrices and weights, in the order of the GPU buffers.
-#[derive(Debug, Default)]
-struct Rig {
-    palettes: Vec<Palette>,
-    /// Nodes whose morph weights follow each other in the weight buffer, with their number of targets.
-    weights: Vec<(usize, usize)>,
-}
-
-#[derive(Debug)]
-enum Palette {
-    /// The node's own matrix.
-    Rigid(usize),
-    /// Joint nodes and `joint_from_mesh`.
-    Skin(Vec<(usize, Mat4)>),
 }
 
 /// Size of one material in the uniform buffer: the strictest offset alignment of WebGPU.
@@ -322,194 +304,4 @@ fn texture_slots(material: &Material) -> [(Option<usize>, Encoding); 9] {
 
 fn texture_uses(materials: &[Material]) -> Vec<(usize, Encoding)> {
     materials.iter().flat_map(texture_slots).filter_map(|(texture, encoding)| Some((texture?, encoding))).collect()
-}
-
-/// A primitive under a node.
-struct Part {
-    material: usize,
-    indices: std::ops::Range<u32>,
-    center: Vec3,
-    has_vertex_colors: bool,
-}
-
-/// Vertices of all parts in one stream.
-#[derive(Default)]
-struct Geometry {
-    parts: Vec<Part>,
-    indices: Vec<u32>,
-    static_vertices: Vec<StaticVertex>,
-    source: Vec<DeformVertex>,
-    vertex_refs: Vec<[u32; 2]>,
-    groups: Vec<DeformGroup>,
-    influences: Vec<u32>,
-    morphs: Vec<MorphEntry>,
-    rig: Rig,
-    joint_count: usize,
-    weight_count: usize,
-    /// Material by part id, which counts primitives in the order of nodes.
-    part_materials: Vec<usize>,
-}
-
-impl Geometry {
-    fn gather(scene: &Scene) -> Self {
-        let mut geometry = Self::default();
-        let rest = scene.rest_world_from_nodes();
-        let mut skin_palettes: HashMap<usize, u32> = HashMap::new();
-        let mut parts: Vec<(u32, usize, &Primitive, DeformGroup, Mat4)> = Vec::new();
-        for (node_index, mesh) in scene.mesh_nodes() {
-            let node = &scene.nodes[node_index];
-            let skin = node.skin.and_then(|s| scene.skins.get(s));
-            let rest_matrix = match skin {
-                Some(skin) => skin_matrix(skin, &rest, 0),
-                None => rest[node_index],
-            };
-            let first_weight = geometry.weight_count as u32;
-            geometry.rig.weights.push((node_index, mesh.morph_names.len()));
-            geometry.weight_count += mesh.morph_names.len();
-            let mut rigid_joint = None;
-            for primitive in &mesh.primitives {
-                let skinned = skin.is_some() && primitive.influences.per_vertex > 0;
-                let first_joint = if let (true, Some(skin), Some(skin_index)) = (skinned, skin, node.skin) {
-                    *skin_palettes.entry(skin_index).or_insert_with(|| {
-                        let first = geometry.joint_count as u32;
-                        let joints = skin.joints.iter().copied().zip(skin.joint_from_mesh.iter().copied()).collect();
-                        geometry.rig.palettes.push(Palette::Skin(joints));
-                        geometry.joint_count += skin.joints.len();
-                        first
-                    })
-                } else {
-                    *rigid_joint.get_or_insert_with(|| {
-                        geometry.rig.palettes.push(Palette::Rigid(node_index));
-                        geometry.joint_count += 1;
-                        geometry.joint_count as u32 - 1
-                    })
-                };
-                let group = DeformGroup {
-                    first_joint,
-                    first_weight,
-                    influences_per_vertex: if skinned {
-                        primitive.influences.per_vertex as u32
-                    } else {
-                        0
-                    },
-                    ..DeformGroup::default()
-                };
-                parts.push((parts.len() as u32, node_index, primitive, group, rest_matrix));
-            }
-        }
-        // Opaque first and by material, so that draws merge; blended parts keep their order in the file.
-        let blend = |p: &Primitive| scene.materials.get(p.material).is_some_and(|m| m.alpha.mode == AlphaMode::Blend);
-        let mask = |p: &Primitive| scene.materials.get(p.material).is_some_and(|m| m.alpha.mode == AlphaMode::Mask);
-        parts.sort_by_key(|(id, _, p, ..)| (blend(p), mask(p), if blend(p) { 0 } else { p.material }, *id));
-        let mut materials_by_id = vec![0; parts.len()];
-        for (id, _, primitive, group, rest_matrix) in &parts {
-            geometry.push(*id, primitive, *group, *rest_matrix);
-            materials_by_id[*id as usize] = primitive.material;
-        }
-        geometry.part_materials = materials_by_id;
-        geometry.vertex_refs.push([0, geometry.morphs.len() as u32]);
-        geometry
-    }
-
-    fn push(&mut self, id: u32, primitive: &Primitive, mut group: DeformGroup, rest: Mat4) {
-        let first = self.source.len() as u32;
-        group.first_vertex = first;
-        group.first_influence = self.influences.len() as u32;
-        let group_index = self.groups.len() as u32;
-        self.groups.push(group);
-
-        let uv = |set: usize, v: usize| primitive.uvs.get(set).and_then(|s| s.get(v)).copied().unwrap_or([0.0; 2]);
-        let mut morphs = MorphCursors::new(&primitive.morphs);
-        let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
-        for (v, &position) in primitive.positions.iter().enumerate() {
-            let normal = primitive.normals.get(v).copied().unwrap_or([0.0, 0.0, 1.0]);
-            let tangent = primitive.tangents.get(v).copied().unwrap_or([1.0, 0.0, 0.0, 1.0]);
-            let [tx, ty, tz, sign] = tangent;
-            self.source.push(DeformVertex {
-                position,
-                normal: pack_unit(normal),
-                tangent: pack_unit([tx, ty, tz]) & !1 | u32::from(sign < 0.0),
-                outline_normal: pack_unit(primitive.outline_normals.get(v).copied().unwrap_or(normal)),
-            });
-            let ([u0, v0], [u1, v1]) = (uv(0, v), uv(1, v));
-            let color =
-                primitive.colors.get(v).map_or([255; 4], |c| c.map(|x| (x.clamp(0.0, 1.0) * 255.0).round() as u8));
-            self.static_vertices.push(StaticVertex { uv: [u0, v0, u1, v1], color, part: id });
-            self.vertex_refs.push([group_index, self.morphs.len() as u32]);
-            morphs.take(v as u32, &mut self.morphs);
-            let world = rest.transform_point3(Vec3::from(position));
-            (low, high) = (low.min(world), high.max(world));
-        }
-        if group.influences_per_vertex > 0 {
-            pack_influences(&primitive.influences, &mut self.influences);
-        }
-        let start = self.indices.len() as u32;
-        // A mirrored node turns its triangles inside out; the front faces are put back here.
-        let mirrored = rest.determinant() < 0.0;
-        self.indices.extend(primitive.indices.chunks_exact(3).flat_map(|t| {
-            let [a, b, c] = [t[0] + first, t[1] + first, t[2] + first];
-            if mirrored { [a, c, b] } else { [a, b, c] }
-        }));
-        self.parts.push(Part {
-            material: primitive.material,
-            indices: start..self.indices.len() as u32,
-            center: (low + high) * 0.5,
-            has_vertex_colors: !primitive.colors.is_empty(),
-        });
-    }
-
-    fn deform_input(&self) -> super::pass::deform::DeformInput<'_> {
-        super::pass::deform::DeformInput {
-            groups: &self.groups,
-            source: &self.source,
-            vertex_refs: &self.vertex_refs,
-            influences: &self.influences,
-            morphs: &self.morphs,
-            joint_count: self.joint_count,
-            weight_count: self.weight_count,
-        }
-    }
-}
-
-/// Reads sparse morph targets in vertex order.
-struct MorphCursors<'a> {
-    targets: Vec<(u32, &'a MorphTarget, usize)>,
-}
-
-impl<'a> MorphCursors<'a> {
-    fn new(targets: &'a [MorphTarget]) -> Self {
-        let moving = targets.iter().enumerate().filter(|(_, t)| !t.vertices.is_empty());
-        Self { targets: moving.map(|(i, t)| (i as u32, t, 0)).collect() }
-    }
-
-    fn take(&mut self, vertex: u32, out: &mut Vec<MorphEntry>) {
-        for (index, target, cursor) in &mut self.targets {
-            if target.vertices.get(*cursor) == Some(&vertex) {
-                let at = |list: &[[f32; 3]]| list.get(*cursor).copied().unwrap_or([0.0; 3]);
-                let entry =
-                    MorphEntry { target_index: *index, position: at(&target.positions), normal: at(&target.normals) };
-                out.push(entry);
-                *cursor += 1;
-            }
-        }
-    }
-}
-
-/// Packs joints with unorm16 weights whose sum is exactly one: the heaviest takes what rounding leaves.
-fn pack_influences(influences: &Influences, out: &mut Vec<u32>) {
-    let per_vertex = influences.per_vertex;
-    for (joints, weights) in influences.joints.chunks_exact(per_vertex).zip(influences.weights.chunks_exact(per_vertex))
-    {
-        let mut codes: Vec<i64> = weights.iter().map(|w| (f64::from(*w) * 65535.0).round() as i64).collect();
-        let rest: i64 = 65535 - codes.iter().sum::<i64>();
-        if let Some(first) = codes.first_mut() {
-            *first = (*first + rest).clamp(0, 65535);
-        }
-        out.extend(joints.iter().zip(&codes).map(|(joint, code)| u32::from(*joint) | (*code as u32) << 16));
-    }
-}
-
-fn skin_matrix(skin: &Skin, rest: &[Mat4], joint: usize) -> Mat4 {
-    let node = skin.joints.get(joint).and_then(|n| rest.get(*n)).copied().unwrap_or(Mat4::IDENTITY);
-    node * skin.joint_from_mesh.get(joint).copied().unwrap_or(Mat4::IDENTITY)
 }
