@@ -17,10 +17,12 @@ override UV_ANIMATION: bool = false;
 override UV_ANIMATION_MASK: bool = false;
 override VERTEX_COLOR: bool = false;
 override ALPHA_MASK: bool = false;
+// Alpha is the share of a pixel's samples instead of a cut.
+override ALPHA_COVERAGE: bool = false;
 
 fn surface_options() -> SurfaceOptions {
     return SurfaceOptions(
         UNLIT, BASE_TEXTURE, SHADE_TEXTURE, SHADE_IS_BASE, SHIFT_TEXTURE, NORMAL_MAP, EMISSION_TEXTURE, MATCAP, RIM,
-        RIM_MASK, UV_TRANSFORMS, UV_ANIMATION, UV_ANIMATION_MASK, VERTEX_COLOR, ALPHA_MASK
+        RIM_MASK, UV_TRANSFORMS, UV_ANIMATION, UV_ANIMATION_MASK, VERTEX_COLOR, ALPHA_MASK, ALPHA_COVERAGE
     );
 }

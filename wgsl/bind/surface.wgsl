@@ -29,6 +29,7 @@ struct SurfaceOptions {
     uv_animation_mask: bool,
     vertex_color: bool,
     alpha_mask: bool,
+    alpha_coverage: bool,
 }
 
 struct SurfaceInput {
@@ -83,12 +84,16 @@ fn ambient(n_y: f32) -> vec3f {
     return mix(frame.ambient_ground, frame.ambient_sky, n_y * 0.5 + 0.5);
 }
 
-// Shaded colour (linear, straight) and alpha. `in.normal` need not be unit; it faces the viewer.
+// Shaded colour (linear, straight), and alpha or the coverage of a masked surface. `in.normal` need not be unit; it faces
+// the viewer.
 fn shade_surface(options: SurfaceOptions, in: SurfaceInput) -> vec4f {
     let uv = animated_uv(options, in.uv);
     let texel = surface_texel(options, in, uv);
-    let base = material.base_color * texel;
-    if options.alpha_mask && base.a < material.alpha_cutoff {
+    var base = material.base_color * texel;
+    if options.alpha_coverage {
+        // The cut as a ramp one pixel wide. 1e-4: where alpha is flat there is no ramp.
+        base.a = saturate((base.a - material.alpha_cutoff) / max(fwidth(base.a), 1e-4) + 0.5);
+    } else if options.alpha_mask && base.a < material.alpha_cutoff {
         discard;
     }
     var emission = material.emission;

@@ -1,4 +1,4 @@
-// Opaque and alpha-masked surfaces.
+// Opaque and alpha-masked surfaces; with several samples a pixel the cut covers as many samples as it should.
 import package::bind::frame::frame;
 import package::bind::options::surface_options;
 import package::bind::surface::{SurfaceInput, shade_surface};
@@ -14,11 +14,27 @@ fn vs_main(v: VertexInput) -> Varying {
     return surface_varying(surface_options(), v);
 }
 
-@fragment
-fn fs_main(in: Varying, @builtin(front_facing) front_facing: bool) -> @location(0) vec4f {
-    var color = shade_surface(surface_options(), surface_input(in, front_facing)).rgb;
+struct CoveredOutput {
+    @location(0) color: vec4f,
+    @builtin(sample_mask) samples: u32,
+}
+
+fn encoded(color: vec3f) -> vec4f {
     if ENCODE_SRGB {
-        color = srgb_from_linear(color);
+        return vec4f(srgb_from_linear(color), 1.0);
     }
     return vec4f(color, 1.0);
+}
+
+@fragment
+fn fs_main(in: Varying, @builtin(front_facing) front_facing: bool) -> @location(0) vec4f {
+    return encoded(shade_surface(surface_options(), surface_input(in, front_facing)).rgb);
+}
+
+// For ALPHA_COVERAGE with four samples.
+@fragment
+fn fs_covered(in: Varying, @builtin(front_facing) front_facing: bool) -> CoveredOutput {
+    let surface = shade_surface(surface_options(), surface_input(in, front_facing));
+    let samples = (1u << u32(round(surface.a * 4.0))) - 1u;
+    return CoveredOutput(encoded(surface.rgb), samples);
 }

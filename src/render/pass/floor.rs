@@ -27,6 +27,7 @@ impl FloorPass {
             &ColorPipeline {
                 label: "floor",
                 module: &module,
+                fragment: "fs_main",
                 constants: &[],
                 cull: Some(wgpu::Face::Back),
                 blend: false,

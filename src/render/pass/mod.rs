@@ -62,6 +62,7 @@ pub(crate) struct SurfaceFlags {
     pub uv_animation_mask: bool,
     pub vertex_color: bool,
     pub alpha_mask: bool,
+    pub alpha_coverage: bool,
 }
 
 impl SurfaceFlags {
@@ -111,6 +112,7 @@ impl SurfaceFlags {
             uv_animation_mask: animation_mask.is_some(),
             vertex_color: has_vertex_colors,
             alpha_mask: material.alpha.mode == AlphaMode::Mask,
+            alpha_coverage: false,
         }
     }
 
@@ -132,6 +134,7 @@ impl SurfaceFlags {
             ("UV_ANIMATION_MASK", self.uv_animation_mask),
             ("VERTEX_COLOR", self.vertex_color),
             ("ALPHA_MASK", self.alpha_mask),
+            ("ALPHA_COVERAGE", self.alpha_coverage),
         ]
         .map(|(name, on)| (name, f64::from(u8::from(on))))
         .to_vec()
@@ -157,6 +160,7 @@ pub(crate) fn vertex_buffers() -> [Option<wgpu::VertexBufferLayout<'static>>; 3]
 pub(crate) struct ColorPipeline<'a> {
     pub label: &'a str,
     pub module: &'a wgpu::ShaderModule,
+    pub fragment: &'a str,
     pub constants: &'a [(&'a str, f64)],
     pub cull: Option<wgpu::Face>,
     pub blend: bool,
@@ -185,7 +189,7 @@ pub(crate) fn color_pipeline(
         multisample: wgpu::MultisampleState { count: output.samples, ..Default::default() },
         fragment: Some(wgpu::FragmentState {
             module: desc.module,
-            entry_point: Some("fs_main"),
+            entry_point: Some(desc.fragment),
             compilation_options: options(),
             targets: &[Some(wgpu::ColorTargetState {
                 format: output.format,

@@ -35,6 +35,9 @@ impl OpaquePass {
         flags: SurfaceFlags,
         material: &Material,
     ) -> wgpu::RenderPipeline {
+        // With several samples a cut can cover part of a pixel.
+        let covered = flags.alpha_mask && self.output.samples == 4;
+        let flags = SurfaceFlags { alpha_coverage: covered, ..flags };
         let make = || {
             let mut constants = flags.constants();
             constants.push(encode_constant(self.output));
@@ -45,6 +48,7 @@ impl OpaquePass {
                 &ColorPipeline {
                     label: "opaque",
                     module: &self.module,
+                    fragment: if covered { "fs_covered" } else { "fs_main" },
                     constants: &constants,
                     cull: surface_cull(material),
                     blend: false,

@@ -88,6 +88,7 @@ impl OutlinePass {
                 &ColorPipeline {
                     label: "outline",
                     module: &self.module,
+                    fragment: "fs_main",
                     constants: &constants,
                     cull: Some(wgpu::Face::Front),
                     blend: key.blend,

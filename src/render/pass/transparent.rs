@@ -45,6 +45,7 @@ impl TransparentPass {
                 &ColorPipeline {
                     label: "transparent",
                     module: &self.module,
+                    fragment: "fs_main",
                     constants: &constants,
                     cull: surface_cull(material),
                     blend: true,
