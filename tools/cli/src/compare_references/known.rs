@@ -2,7 +2,7 @@
 //! pictures, or left out where it cannot be, what remains is ours.
 
 use hikage::color::linear_from_srgb;
-use hikage::material::{Material, OutlineWidth, Shading, TextureRef};
+use hikage::material::{Material, Origin, OutlineWidth, Shading, TextureRef};
 use hikage::scene::{Scene, Texture};
 use serde::Serialize;
 
@@ -11,9 +11,10 @@ pub(super) const LEGEND: &str = "\
 known: departures of the references' renderer (three-vrm 3.5.5, three.js r180) that materials in view have
   shift   shadingShiftTexture is decoded as sRGB; MToon 1.0 \"shadingShiftTexture\": components are linear
   width   screen-coordinate outlines thin with distance; MToon 1.0 \"Outline Width\": a ratio of the screen's height
+  half    _OutlineWidth of VRM 0.x is taken as % of the screen's height; MToon 0.x offsets clip space by it, so % of half
   normal  normal maps use a derivative frame with both axes scaled alike, and outlines of such materials are shaded
           with the normal reversed; glTF 2.0 section 3.7.2.1: MikkTSpace
-explained: off % with shift and width reproduced, without the pixels of normal (their share of the parts: left out %)
+explained: off % with shift, width and half reproduced, without the pixels of normal (their share of the parts: left out %)
 ";
 
 /// Reach of an outline beyond its part, pixels.
@@ -25,6 +26,7 @@ const OUTLINE: usize = 4;
 pub(super) enum Known {
     Shift,
     Width,
+    Half,
     Normal,
 }
 
@@ -33,6 +35,7 @@ impl Known {
         match self {
             Self::Shift => "shift",
             Self::Width => "width",
+            Self::Half => "half",
             Self::Normal => "normal",
         }
     }
@@ -44,12 +47,17 @@ impl Known {
             material.outline.map(|o| o.width),
             Some(OutlineWidth::Screen { height_ratio }) if height_ratio > 0.0
         );
-        let all = [(Self::Shift, has_shift), (Self::Width, has_width), (Self::Normal, material.normal_map.is_some())];
+        let all = [
+            (Self::Shift, has_shift),
+            (Self::Width, has_width),
+            (Self::Half, has_width && material.origin == Origin::Mtoon0),
+            (Self::Normal, material.normal_map.is_some()),
+        ];
         all.into_iter().filter_map(|(known, has)| has.then_some(known))
     }
 }
 
-/// The scene with `shift` and `width` as the references have them. `distance` from the eye to what it looks at stands
+/// The scene with `shift`, `width` and `half` as the references have them. `distance` from the eye to what it looks at stands
 /// for the depth of every outline.
 pub(super) fn reproduce(scene: &Scene, distance: f32) -> Scene {
     let mut scene = scene.clone();
@@ -61,7 +69,7 @@ pub(super) fn reproduce(scene: &Scene, distance: f32) -> Scene {
             decode(&mut scene, shift);
         }
         if let Some(OutlineWidth::Screen { height_ratio }) = material.outline.as_mut().map(|o| &mut o.width) {
-            *height_ratio /= distance;
+            *height_ratio *= if material.origin == Origin::Mtoon0 { 2.0 } else { 1.0 } / distance;
         }
     }
     Scene { materials, ..scene }
@@ -127,6 +135,11 @@ mod tests {
         assert_eq!(theirs.images[0], image);
         let width = theirs.materials[0].outline.expect("an outline").width;
         assert_eq!(width, OutlineWidth::Screen { height_ratio: 0.0025 });
+
+        let mut old = scene;
+        old.materials[0].origin = Origin::Mtoon0;
+        let width = reproduce(&old, 4.0).materials[0].outline.expect("an outline").width;
+        assert_eq!(width, OutlineWidth::Screen { height_ratio: 0.005 });
     }
 
     #[test]

@@ -215,7 +215,7 @@ impl Studio {
             known::with_outlines(&materials.iter().map(has_normal_map).collect::<Vec<_>>(), ours.width as usize);
         let parts = (0..ids.len()).filter(|i| materials[*i].is_some() && in_toon(*i));
         let (shown, hidden) = parts.fold((0u32, 0u32), |(all, out), i| (all + 1, out + u32::from(left_out[i])));
-        let like_theirs = if known.contains(&Known::Shift) || known.contains(&Known::Width) {
+        let like_theirs = if known.iter().any(|k| *k != Known::Normal) {
             let scene = known::reproduce(scene, view.camera.eye.distance(view.camera.target));
             let mut gpu_scene = self.renderer.upload(&scene)?;
             setup::pose(&self.gpu, &mut gpu_scene, &scene, &expressions)?;
