@@ -10,11 +10,13 @@ use crate::{
     AdapterInfo, Error, Gpu, GpuMemory, GpuScene, Output, Renderer, Result, View,
     motion::Pose,
     render::{
-        draw_list,
-        pass::floor::{FloorInputs, FloorPass},
-        pass::opaque::OpaqueInputs,
-        pass::outline::OutlineInputs,
-        pass::transparent::TransparentInputs,
+        color_target, draw_list,
+        pass::{
+            floor::{FloorInputs, FloorPass},
+            opaque::OpaqueInputs,
+            outline::OutlineInputs,
+            transparent::TransparentInputs,
+        },
     },
     scene::Scene,
 };
@@ -92,6 +94,82 @@ pub struct BenchReport {
 const TIMEOUT: Duration = Duration::from_secs(120);
 const TIMED_PASSES: [&str; 2] = ["deform", "colour"];
 
+/// A scene that is ready to be timed: frames and floor frames with the same triangles, targets and pose.
+pub struct Stage<'a> {
+    gpu: Gpu,
+    renderer: Renderer,
+    uploaded: GpuScene,
+    scene: &'a Scene,
+    pose: Pose,
+    view: View,
+    target: wgpu::TextureView,
+    floor: FloorPass,
+    clock: Clock,
+}
+
+impl<'a> Stage<'a> {
+    /// Uploads a scene.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for options out of their domain; [`Error::Gpu`] where the adapter fails.
+    pub fn new(gpu: &Gpu, scene: &'a Scene, options: &BenchOptions) -> Result<Self> {
+        options.view.check()?;
+        let output = Output { samples: options.samples, ..Output::default() };
+        let mut renderer = Renderer::with_output(gpu, output)?;
+        let uploaded = renderer.upload(scene)?;
+        gpu.wait(TIMEOUT)?;
+        Ok(Self {
+            gpu: gpu.clone(),
+            floor: FloorPass::new(gpu, &renderer.layouts, output),
+            target: color_target(gpu, options.view.size, output),
+            clock: Clock::new(gpu),
+            pose: Pose::rest(scene),
+            view: options.view.clone(),
+            renderer,
+            uploaded,
+            scene,
+        })
+    }
+
+    /// Poses, deforms and draws a frame, and waits until the adapter is done.
+    ///
+    /// # Errors
+    /// [`Error::Gpu`] where the adapter fails.
+    pub fn frame(&mut self) -> Result<()> {
+        self.draw(|pass, stage| {
+            let scene = &stage.uploaded;
+            stage.renderer.opaque.encode(pass, &OpaqueInputs { scene });
+            stage.renderer.outline.encode(pass, &OutlineInputs { scene });
+            stage.renderer.transparent.encode(pass, &TransparentInputs { scene });
+        })
+    }
+
+    /// The same with every triangle drawn once, unlit, with one texture.
+    ///
+    /// # Errors
+    /// [`Error::Gpu`] where the adapter fails.
+    pub fn floor(&mut self) -> Result<()> {
+        self.draw(|pass, stage| stage.floor.encode(pass, &FloorInputs { scene: &stage.uploaded }))
+    }
+
+    fn draw(&mut self, record: impl FnOnce(&mut wgpu::RenderPass<'_>, &Self)) -> Result<()> {
+        self.uploaded.set_pose(&self.gpu, self.scene, &self.pose);
+        self.renderer.begin_frame(&mut self.uploaded, &self.view);
+        let mut encoder =
+            self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("bench") });
+        self.renderer.encode_deform(&mut encoder, &mut self.uploaded, self.clock.compute_writes());
+        {
+            let writes = self.clock.render_writes();
+            let mut pass = self.renderer.begin_color_pass(&mut encoder, &self.view, &self.target, writes);
+            draw_list::bind_scene(&mut pass, &self.uploaded, self.renderer.frame_group());
+            record(&mut pass, self);
+        }
+        self.clock.resolve(&mut encoder);
+        self.gpu.queue.submit([encoder.finish()]);
+        self.gpu.wait(TIMEOUT)
+    }
+}
+
 /// Times a scene. Every frame sets the pose anew, as an animated character would.
 ///
 /// # Errors
@@ -100,39 +178,27 @@ pub fn run(gpu: &Gpu, scene: &Scene, options: &BenchOptions) -> Result<BenchRepo
     if options.frames == 0 {
         return Err(Error::Argument { what: "frames".to_owned(), message: "is 0; expected at least 1".to_owned() });
     }
-    let output = Output { samples: options.samples, ..Output::default() };
-    let mut renderer = Renderer::with_output(gpu, output)?;
     let start = Instant::now();
-    let mut uploaded = renderer.upload(scene)?;
-    gpu.wait(TIMEOUT)?;
+    let mut stage = Stage::new(gpu, scene, options)?;
     let upload_ms = milliseconds(start);
     let start = Instant::now();
-    renderer.render(&mut uploaded, &options.view)?;
+    stage.frame()?;
     let first_frame_ms = milliseconds(start);
+    // Warms the floor up as the frame was.
+    stage.floor()?;
 
-    let floor = FloorPass::new(gpu, &renderer.layouts, output);
-    let target = crate::render::color_target(gpu, options.view.size, output);
-    let clock = Clock::new(gpu);
-    let pose = Pose::rest(scene);
     let (mut frames, mut floors) = (Vec::new(), Vec::new());
     let mut passes = vec![Vec::new(); TIMED_PASSES.len()];
-    // The first round warms both up and does not count.
-    for round in 0..=options.frames {
+    for _ in 0..options.frames {
         let start = Instant::now();
-        frame(&mut renderer, &mut uploaded, scene, &pose, &options.view, &target, Some(&clock), None);
-        gpu.wait(TIMEOUT)?;
-        let frame_ms = milliseconds(start);
-        let times = clock.read(gpu)?;
-        let start = Instant::now();
-        frame(&mut renderer, &mut uploaded, scene, &pose, &options.view, &target, None, Some(&floor));
-        gpu.wait(TIMEOUT)?;
-        if round > 0 {
-            frames.push(frame_ms);
-            floors.push(milliseconds(start));
-            for (list, ms) in passes.iter_mut().zip(times) {
-                list.push(ms);
-            }
+        stage.frame()?;
+        frames.push(milliseconds(start));
+        for (list, ms) in passes.iter_mut().zip(stage.clock.read(gpu)?) {
+            list.push(ms);
         }
+        let start = Instant::now();
+        stage.floor()?;
+        floors.push(milliseconds(start));
     }
     let (frame_ms, floor_ms) = (spread(frames), spread(floors));
     Ok(BenchReport {
@@ -150,47 +216,12 @@ pub fn run(gpu: &Gpu, scene: &Scene, options: &BenchOptions) -> Result<BenchRepo
             .filter(|(_, list)| !list.is_empty())
             .map(|(name, list)| PassTime { name: (*name).to_owned(), ms: spread(list) })
             .collect(),
-        draws: uploaded.draw_count(),
-        triangles: uploaded.triangle_count() * options.view.instances.len(),
-        memory: uploaded.memory(),
+        draws: stage.uploaded.draw_count(),
+        triangles: stage.uploaded.triangle_count() * options.view.instances.len(),
+        memory: stage.uploaded.memory(),
         upload_ms,
         first_frame_ms,
     })
-}
-
-/// Poses, deforms and draws once: the frame, or the floor in its place.
-#[allow(clippy::too_many_arguments, reason = "one private call site pair; a struct would only rename them")]
-fn frame(
-    renderer: &mut Renderer,
-    uploaded: &mut GpuScene,
-    scene: &Scene,
-    pose: &Pose,
-    view: &View,
-    target: &wgpu::TextureView,
-    clock: Option<&Clock>,
-    floor: Option<&FloorPass>,
-) {
-    let gpu = renderer.gpu.clone();
-    uploaded.set_pose(&gpu, scene, pose);
-    let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("bench") });
-    renderer.begin_frame(uploaded, view);
-    renderer.encode_deform(&mut encoder, uploaded, clock.and_then(Clock::compute_writes));
-    {
-        let writes = clock.and_then(Clock::render_writes);
-        let mut pass = renderer.begin_color_pass(&mut encoder, view, target, writes);
-        draw_list::bind_scene(&mut pass, uploaded, renderer.frame_group());
-        if let Some(floor) = floor {
-            floor.encode(&mut pass, &FloorInputs { scene: uploaded });
-        } else {
-            renderer.opaque.encode(&mut pass, &OpaqueInputs { scene: uploaded });
-            renderer.outline.encode(&mut pass, &OutlineInputs { scene: uploaded });
-            renderer.transparent.encode(&mut pass, &TransparentInputs { scene: uploaded });
-        }
-    }
-    if let Some(clock) = clock {
-        clock.resolve(&mut encoder);
-    }
-    gpu.queue.submit([encoder.finish()]);
 }
 
 /// Timestamps of the adapter; `None` inside where it has none.

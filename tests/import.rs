@@ -201,6 +201,14 @@ fn vertex_colours_get_an_alpha_and_white_ones_are_dropped() {
     let mut glb = Glb::triangle();
     glb.attribute("COLOR_0", F32, "VEC4", &floats(&[1.0; 12]), 3, false);
     assert!(first(&glb.load().expect("loads")).colors.is_empty());
+
+    // MToon ignores them.
+    let mut glb = Glb::triangle();
+    glb.attribute("COLOR_0", F32, "VEC4", &floats(&[0.5; 12]), 3, false);
+    glb.primitive()["material"] = json!(0);
+    glb.push("materials", json!({"extensions": {"VRMC_materials_mtoon": {"specVersion": "1.0"}}}));
+    glb.json["extensionsUsed"] = json!(["VRMC_materials_mtoon"]);
+    assert!(first(&glb.load().expect("loads")).colors.is_empty());
 }
 
 /// A triangle skinned to `joints` joints.
@@ -553,7 +561,10 @@ fn vrm0_materials_convert_by_the_migration_table() {
     assert!((shade.shift - 0.08).abs() < 1e-6 && (shade.toony - 0.88).abs() < 1e-6, "{shade:?}");
     assert_eq!(shade.gi_equalization, 0.75);
     assert_eq!(shade.shade_texture, material.base.texture, "the lit texture stands in for a missing shade texture");
-    assert_eq!(material.emission.color, [0.5, 2.0, 0.0], "emission is linear in the file");
+    assert!(
+        close(&material.emission.color, &[half, 2f32.powf(2.2), 0.0], 1e-5),
+        "emission is gamma-encoded in the file"
+    );
     let outline = material.outline.expect("an outline");
     assert_eq!((outline.width, outline.lighting_mix), (OutlineWidth::World { metres: 0.005 }, 0.75));
     assert!(close(&outline.color, &[half, 0., 0.], 1e-6) && close(&material.rim.color, &[half, 0., 0.], 1e-6));

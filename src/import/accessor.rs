@@ -2,39 +2,21 @@
 //!
 //! Elements are read at random, so that a primitive fetches only the vertices that it uses from a shared accessor.
 
+pub(super) use gltf::json::accessor::ComponentType as Component;
+
 use super::buffers::View;
 use super::fault::{Fault, Limits, Result, quoted, within};
 use super::json::Json;
 
-/// Type of one component.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Component {
-    I8,
-    U8,
-    I16,
-    U16,
-    U32,
-    F32,
-}
-
-impl Component {
-    const fn size(self) -> u64 {
-        match self {
-            Self::I8 | Self::U8 => 1,
-            Self::I16 | Self::U16 => 2,
-            Self::U32 | Self::F32 => 4,
-        }
-    }
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::I8 => "BYTE",
-            Self::U8 => "UNSIGNED_BYTE",
-            Self::I16 => "SHORT",
-            Self::U16 => "UNSIGNED_SHORT",
-            Self::U32 => "UNSIGNED_INT",
-            Self::F32 => "FLOAT",
-        }
+/// Name of a component type in the specification.
+fn component_name(component: Component) -> &'static str {
+    match component {
+        Component::I8 => "BYTE",
+        Component::U8 => "UNSIGNED_BYTE",
+        Component::I16 => "SHORT",
+        Component::U16 => "UNSIGNED_SHORT",
+        Component::U32 => "UNSIGNED_INT",
+        Component::F32 => "FLOAT",
     }
 }
 
@@ -112,7 +94,7 @@ fn read<'a>(json: &Json, views: &'a [View<'a>], limits: &Limits) -> Result<Acces
             }
             // The padding of the last column of the last matrix may be missing.
             let padding = if columns > 1 {
-                packed.checked_div(columns).unwrap_or(0).saturating_sub(rows.saturating_mul(component.size()))
+                packed.checked_div(columns).unwrap_or(0).saturating_sub(rows.saturating_mul(component.size() as u64))
             } else {
                 0
             };
@@ -135,7 +117,7 @@ fn read<'a>(json: &Json, views: &'a [View<'a>], limits: &Limits) -> Result<Acces
 }
 
 fn element_size(component: Component, rows: u64, columns: u64) -> u64 {
-    let column = rows.saturating_mul(component.size());
+    let column = rows.saturating_mul(component.size() as u64);
     // Columns of a matrix start at multiples of 4 bytes.
     let column = if columns > 1 {
         column.next_multiple_of(4)
@@ -176,11 +158,13 @@ fn read_sparse<'a>(sparse: &Json, views: &'a [View<'a>], base: u64, packed: u64)
     let indices_json = sparse.need("indices")?;
     let component = component(&indices_json)?;
     if !matches!(component, Component::U8 | Component::U16 | Component::U32) {
-        return Err(indices_json
-            .fault(format!("found sparse indices of componentType {}, expected unsigned integers", component.name())));
+        return Err(indices_json.fault(format!(
+            "found sparse indices of componentType {}, expected unsigned integers",
+            component_name(component)
+        )));
     }
-    let (json, bytes) = side("indices", component.size())?;
-    let size = usize::try_from(component.size()).unwrap_or(1);
+    let (json, bytes) = side("indices", component.size() as u64)?;
+    let size = usize::try_from(component.size() as u64).unwrap_or(1);
     let indices: Vec<u32> = bytes.chunks_exact(size).map(unsigned).collect();
     if !indices.is_sorted_by(|a, b| a < b) {
         return Err(json.fault("sparse indices are not in strictly increasing order"));
@@ -233,10 +217,14 @@ impl Accessor<'_> {
             ));
         }
         if !components.contains(&self.component) {
-            let names: Vec<&str> = components.iter().map(|c| c.name()).collect();
+            let names: Vec<&str> = components.iter().copied().map(component_name).collect();
             return Err(Fault::new(
                 pointer,
-                format!("{what}: found componentType {}, expected {}", self.component.name(), names.join(" or ")),
+                format!(
+                    "{what}: found componentType {}, expected {}",
+                    component_name(self.component),
+                    names.join(" or ")
+                ),
             ));
         }
         Ok(())
@@ -258,7 +246,7 @@ impl Accessor<'_> {
 
     /// `N` components of the chosen elements as floats. Non-finite values become 0; their number is returned as well.
     pub(super) fn floats<const N: usize>(&self, elements: impl Iterator<Item = u32>) -> (Vec<[f32; N]>, usize) {
-        let size = usize::try_from(self.component.size()).unwrap_or(1);
+        let size = usize::try_from(self.component.size() as u64).unwrap_or(1);
         let mut bad = 0usize;
         let rows = elements
             .map(|index| {
@@ -290,7 +278,7 @@ impl Accessor<'_> {
 
     /// Elements as unsigned integers: `N` components each.
     pub(super) fn unsigned<const N: usize>(&self, elements: impl Iterator<Item = u32>) -> Vec<[u32; N]> {
-        let size = usize::try_from(self.component.size()).unwrap_or(1);
+        let size = usize::try_from(self.component.size() as u64).unwrap_or(1);
         elements
             .map(|index| {
                 let mut row = [0u32; N];

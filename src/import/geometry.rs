@@ -5,7 +5,7 @@ use std::collections::HashMap;
 
 use glam::Vec3;
 
-use crate::material::Material;
+use crate::material::{Material, Origin};
 use crate::scene::{Influences, MorphTarget, Primitive};
 
 use super::accessor::Accessor;
@@ -98,7 +98,10 @@ pub(super) fn build(
             primitive.tangents = made.tangents;
         }
     }
-    primitive.colors = colors(source, cx, &used);
+    // MToon, "Vertex Colors": ignored.
+    if !material.is_some_and(|m| matches!(m.origin, Origin::Mtoon0 | Origin::Mtoon1)) {
+        primitive.colors = colors(source, cx, &used);
+    }
     primitive.influences = influences(source, cx, &used, warnings)?;
     primitive.morphs = morphs(source, cx, &used, budget, warnings)?;
     primitive.indices = indices;

@@ -1,6 +1,10 @@
 //! Images to GPU textures: mip chains made on all cores, averaged in linear light where the image is a colour.
 
-use std::collections::HashMap;
+use std::{
+    borrow::Cow,
+    collections::{BTreeMap, BTreeSet, HashMap},
+    time::Duration,
+};
 
 use rayon::prelude::*;
 
@@ -8,7 +12,7 @@ use crate::{
     Error, Gpu, Result,
     color::{linear_from_srgb, srgb_from_linear},
     gpu::MAX_TEXTURE_SIDE,
-    scene::{Filter, Image, Sampler, Scene, Wrap},
+    scene::{Filter, Image, Sampler, Texture, Wrap},
 };
 
 /// What the numbers of an image mean.
@@ -33,32 +37,44 @@ pub(crate) struct TextureSet {
 }
 
 impl TextureSet {
-    /// Uploads every image once for each encoding in `uses` (texture index, encoding).
-    pub fn new(gpu: &Gpu, scene: &Scene, uses: &[(usize, Encoding)]) -> Result<Self> {
-        let mut wanted: Vec<(usize, Encoding)> =
-            uses.iter().filter_map(|&(texture, e)| Some((scene.textures.get(texture)?.image, e))).collect();
-        wanted.sort_unstable();
-        wanted.dedup();
+    /// Uploads every image once for each encoding in `uses` (texture index, encoding). `take` hands over an image; it is
+    /// asked once for each.
+    pub fn new<'a>(
+        gpu: &Gpu,
+        textures: &[Texture],
+        uses: &[(usize, Encoding)],
+        mut take: impl FnMut(usize) -> Option<Cow<'a, Image>>,
+    ) -> Result<Self> {
+        let mut wanted: BTreeMap<usize, BTreeSet<Encoding>> = BTreeMap::new();
+        for (texture, encoding) in uses {
+            if let Some(texture) = textures.get(*texture) {
+                wanted.entry(texture.image).or_default().insert(*encoding);
+            }
+        }
         let tables = Tables::new();
         let mut views = HashMap::new();
         let mut bytes = 0;
-        // A few at a time: the mip chains of one batch are made in parallel, and only its copies live at once.
+        let wanted: Vec<(usize, BTreeSet<Encoding>)> = wanted.into_iter().collect();
+        // A few at a time: mip chains are made on all cores, and only those of one batch live at once.
         for batch in wanted.chunks(rayon::current_num_threads().max(1)) {
-            let chains: Vec<Option<Vec<Level>>> = batch
+            let images: Vec<(usize, Cow<'_, Image>, &BTreeSet<Encoding>)> =
+                batch.iter().filter_map(|(index, encodings)| Some((*index, take(*index)?, encodings))).collect();
+            let chains: Vec<(usize, &Image, Encoding, Vec<Level>)> = images
                 .par_iter()
-                .map(|&(image, encoding)| Some(mip_chain(scene.images.get(image)?, encoding, &tables)))
+                .flat_map_iter(|(index, image, encodings)| encodings.iter().map(|e| (*index, &**image, *e)))
+                .map(|(index, image, encoding)| (index, image, encoding, mip_chain(image, encoding, &tables)))
                 .collect();
-            for (&(index, encoding), chain) in batch.iter().zip(&chains) {
-                let (Some(image), Some(chain)) = (scene.images.get(index), chain) else { continue };
-                views.insert((index, encoding), upload(gpu, image, chain, encoding)?);
-                bytes += image.pixels.len() as u64 + chain.iter().map(|l| l.pixels.len() as u64).sum::<u64>();
+            for (index, image, encoding, mips) in &chains {
+                views.insert((*index, *encoding), upload(gpu, image, mips, *encoding)?);
+                bytes += image.pixels.len() as u64 + mips.iter().map(|l| l.pixels.len() as u64).sum::<u64>();
             }
-            // Hands the staging memory of this batch back before the next one is made.
+            // Gives the staging memory of this batch back before the next one asks for more.
             gpu.queue.submit([]);
+            gpu.wait(UPLOAD_TIMEOUT)?;
         }
         let white = Image { width: 1, height: 1, pixels: vec![255; 4], ..Image::default() };
         let mut samplers = HashMap::new();
-        for texture in &scene.textures {
+        for texture in textures {
             samplers.entry(texture.sampler).or_insert_with(|| sampler(gpu, texture.sampler));
         }
         Ok(Self {
@@ -73,15 +89,18 @@ impl TextureSet {
     /// View and sampler of a scene's texture, or white.
     pub fn get(
         &self,
-        scene: &Scene,
+        textures: &[Texture],
         texture: Option<usize>,
         encoding: Encoding,
     ) -> (&wgpu::TextureView, &wgpu::Sampler) {
-        let texture = texture.and_then(|t| scene.textures.get(t));
+        let texture = texture.and_then(|t| textures.get(t));
         let found = texture.and_then(|t| Some((self.views.get(&(t.image, encoding))?, self.samplers.get(&t.sampler)?)));
         found.unwrap_or((&self.white, &self.default_sampler))
     }
 }
+
+/// Longest wait for a batch of textures.
+const UPLOAD_TIMEOUT: Duration = Duration::from_secs(120);
 
 struct Level {
     width: u32,

@@ -1,6 +1,9 @@
 //! Scene to GPU: one vertex buffer, one index buffer, one bind group a material, draws merged by material.
 
-use std::collections::{BTreeMap, HashMap};
+use std::{
+    borrow::Cow,
+    collections::{BTreeMap, HashMap},
+};
 
 use glam::{Mat4, Vec3};
 use wgpu::util::DeviceExt;
@@ -16,7 +19,7 @@ use crate::{
     Gpu, Result,
     material::{AlphaMode, Material, Shading, TextureRef},
     motion::Pose,
-    scene::{Influences, MorphTarget, Primitive, Scene, Skin},
+    scene::{Image, Influences, MorphTarget, Primitive, Scene, Skin},
 };
 
 /// A scene on the GPU, ready to be drawn. Made by [`Renderer::upload`].
@@ -80,12 +83,33 @@ impl Renderer {
     /// where the scene contradicts itself.
     pub fn upload(&mut self, scene: &Scene) -> Result<GpuScene> {
         let gpu = self.gpu.clone();
-        let uploaded = gpu.scoped(|| self.upload_unchecked(scene))??;
-        Ok(uploaded)
+        gpu.scoped(|| {
+            let borrow = |index| scene.images.get(index).map(Cow::Borrowed);
+            let textures = TextureSet::new(&self.gpu, &scene.textures, &texture_uses(&scene.materials), borrow)?;
+            self.upload_with(scene, &textures)
+        })?
     }
 
-    fn upload_unchecked(&mut self, scene: &Scene) -> Result<GpuScene> {
-        let textures = TextureSet::new(&self.gpu, scene, &texture_uses(&scene.materials))?;
+    /// [`Renderer::upload`] for a scene whose pictures nobody needs afterwards: each image is emptied once it is on the
+    /// GPU, so that a character's textures do not stand in memory twice.
+    ///
+    /// # Errors
+    /// Those of [`Renderer::upload`].
+    pub fn upload_and_empty_images(&mut self, scene: &mut Scene) -> Result<GpuScene> {
+        let gpu = self.gpu.clone();
+        gpu.scoped(|| {
+            let Scene { textures, images, materials, .. } = scene;
+            let take = |index: usize| {
+                let image = images.get_mut(index)?;
+                let pixels = std::mem::take(&mut image.pixels);
+                Some(Cow::Owned(Image { pixels, ..image.clone() }))
+            };
+            let textures = TextureSet::new(&self.gpu, textures, &texture_uses(materials), take)?;
+            self.upload_with(scene, &textures)
+        })?
+    }
+
+    fn upload_with(&mut self, scene: &Scene, textures: &TextureSet) -> Result<GpuScene> {
         let geometry = Geometry::gather(scene);
         let device = &self.gpu.device;
         let buffer = |label, contents: &[u8], usage| {
@@ -103,7 +127,7 @@ impl Renderer {
             .materials
             .iter()
             .enumerate()
-            .map(|(index, material)| self.material_group(scene, material, index, &materials, &textures))
+            .map(|(index, material)| self.material_group(scene, material, index, &materials, textures))
             .collect();
 
         let indices = buffer("indices", bytemuck::cast_slice(&geometry.indices), U::INDEX);
@@ -150,7 +174,7 @@ impl Renderer {
             }),
         }];
         for (slot, (texture, encoding)) in texture_slots(material).into_iter().enumerate() {
-            let (view, sampler) = textures.get(scene, texture, encoding);
+            let (view, sampler) = textures.get(&scene.textures, texture, encoding);
             let binding = 1 + 2 * slot as u32;
             entries.push(wgpu::BindGroupEntry { binding, resource: wgpu::BindingResource::TextureView(view) });
             entries

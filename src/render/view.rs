@@ -117,12 +117,13 @@ impl Channel {
 impl View {
     /// A view of a character: `yaw_rad` moves the camera around it, positive towards the character's left (+X).
     ///
-    /// Heads come from the humanoid bones; a model without them is framed by its bounding box.
+    /// Head and hips come from the humanoid bones, else from nodes of that name, else from the bounding box.
     #[must_use]
     pub fn framed(scene: &Scene, framing: Framing, yaw_rad: f32, size: [u32; 2]) -> Self {
         let (low, high) = bounds(scene);
         let world = scene.rest_world_from_nodes();
-        let head = scene.bone_node(HumanBone::Head).and_then(|n| world.get(n)).map(|m| m.w_axis.truncate());
+        let joint = |bone, name| Some(world.get(joint_node(scene, bone, name)?)?.w_axis.truncate());
+        let (head, hips) = (joint(HumanBone::Head, "head"), joint(HumanBone::Hips, "hips"));
         let top = high.y;
         let height = (high.y - low.y).max(1e-3);
         let head_y = head.map_or(low.y + height * 0.82, |h| h.y);
@@ -137,7 +138,11 @@ impl View {
         let (target, visible_height, visible_width) = match framing {
             Framing::Face => (head_center, head_height * 1.15, head_height * 1.15),
             Framing::Portrait => (head_center - Vec3::Y * head_height * 0.2, head_height * 2.0, head_height * 2.0),
-            Framing::Bust => (head_center - Vec3::Y * head_height * 0.9, head_height * 3.3, head_height * 2.6),
+            Framing::Bust => {
+                let above = top + head_height * 0.1;
+                let below = hips.map_or(head_y - head_height * 2.2, |h| h.y).min(head_y - head_height * 0.5);
+                (head_center.with_y((above + below) * 0.5), above - below, head_height * 2.2)
+            }
             Framing::Full => {
                 let turned = Quat::from_rotation_y(yaw_rad) * Vec3::X;
                 let width = (high.x - low.x) * turned.x.abs() + (high.z - low.z) * turned.z.abs();
@@ -185,6 +190,12 @@ impl View {
         }
         Ok(())
     }
+}
+
+/// Node of a humanoid bone, or the first node with its plain name (`Head`, `mixamorig:Head`).
+fn joint_node(scene: &Scene, bone: HumanBone, name: &str) -> Option<usize> {
+    let plain = |n: &str| n.rsplit([':', '_', '.']).next().is_some_and(|last| last.eq_ignore_ascii_case(name));
+    scene.bone_node(bone).or_else(|| scene.nodes.iter().position(|n| n.mesh.is_none() && plain(&n.name)))
 }
 
 /// Bounding box at rest, world space.

@@ -1,6 +1,6 @@
 // What goes from vertex to fragment for a surface.
 import package::bind::frame::frame;
-import package::bind::surface::SurfaceInput;
+import package::bind::surface::{SurfaceInput, SurfaceOptions};
 import package::bind::vertex::{VertexInput, bitangent_sign, world_direction, world_position};
 
 struct Varying {
@@ -12,15 +12,14 @@ struct Varying {
     @location(4) color: vec4f,
 }
 
-fn surface_varying(v: VertexInput) -> Varying {
+fn surface_varying(options: SurfaceOptions, v: VertexInput) -> Varying {
     let position = world_position(v, v.position);
+    var tangent = vec4f(0.0);
+    if options.normal_map {
+        tangent = vec4f(world_direction(v, v.frame.y), bitangent_sign(v.frame.y));
+    }
     return Varying(
-        frame.clip_from_world * vec4f(position, 1.0),
-        position,
-        world_direction(v, v.frame.x),
-        vec4f(world_direction(v, v.frame.y), bitangent_sign(v.frame.y)),
-        v.uv,
-        v.color,
+        frame.clip_from_world * vec4f(position, 1.0), position, world_direction(v, v.frame.x), tangent, v.uv, v.color
     );
 }
 

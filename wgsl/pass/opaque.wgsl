@@ -11,7 +11,7 @@ override ENCODE_SRGB: bool = false;
 
 @vertex
 fn vs_main(v: VertexInput) -> Varying {
-    return surface_varying(v);
+    return surface_varying(surface_options(), v);
 }
 
 @fragment

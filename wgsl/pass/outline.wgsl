@@ -20,7 +20,7 @@ override OUTLINE_BLEND: bool = false;
 
 @vertex
 fn vs_main(v: VertexInput) -> Varying {
-    var out = surface_varying(v);
+    var out = surface_varying(surface_options(), v);
     var width = material.outline_width;
     if WIDTH_MASK {
         width *= textureSampleLevel(

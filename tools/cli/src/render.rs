@@ -167,7 +167,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
 
     let spinner = Spinner::new();
     spinner.step("loading the model");
-    let scene = timed(&mut ms.load, || hikage::import::load(&args.model))?;
+    let mut scene = timed(&mut ms.load, || hikage::import::load(&args.model))?;
     show_warnings(&scene.warnings);
     let view = view(args, &shot, &scene)?;
 
@@ -177,7 +177,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let output = Output { samples: args.samples, ..Output::default() };
     let mut renderer = timed(&mut ms.pipelines, || Renderer::with_output(&gpu, output))?;
     spinner.step("uploading");
-    let mut gpu_scene = timed(&mut ms.upload, || renderer.upload(&scene))?;
+    let mut gpu_scene = timed(&mut ms.upload, || renderer.upload_and_empty_images(&mut scene))?;
     setup::pose(&gpu, &mut gpu_scene, &scene, &args.expression)?;
     spinner.step("drawing");
     let picture = timed(&mut ms.first_frame, || renderer.render(&mut gpu_scene, &view))?;
