@@ -1,6 +1,7 @@
 //! The functions of `wgsl/lib` on the adapter against float64 vectors.
 //!
-//! Vectors are read from `tests/oracles`, or from the folder that `HIKAGE_ORACLES` names.
+//! Vectors are read from `tests/oracles`, or from the folder that `HIKAGE_ORACLES` names; `HIKAGE_ADAPTER` names
+//! another adapter than the default.
 
 use std::path::PathBuf;
 
@@ -9,7 +10,8 @@ use wgpu::util::DeviceExt;
 
 /// Runs `body`, which may read `input[base + k]` and must write `output[out + k]`, once for each row of numbers.
 fn run(library: &[&str], body: &str, rows: &[Vec<f32>], outputs: usize) -> Vec<Vec<f32>> {
-    let gpu = hikage::Gpu::headless(None).unwrap_or_else(|e| panic!("{e}"));
+    let adapter = std::env::var("HIKAGE_ADAPTER").ok();
+    let gpu = hikage::Gpu::headless(adapter.as_deref()).unwrap_or_else(|e| panic!("{e}"));
     let stride = rows[0].len();
     assert!(rows.iter().all(|r| r.len() == stride));
     let mut text = String::new();

@@ -38,7 +38,11 @@ pub(crate) fn build_cli(release: bool) -> Outcome<PathBuf> {
         args.push("--release");
     }
     run(&args, &Vulkan::default())?;
-    let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| PathBuf::from("target"), PathBuf::from);
     let name = format!("hikage{}", std::env::consts::EXE_SUFFIX);
-    Ok(target.join(if release { "release" } else { "debug" }).join(name))
+    Ok(target().join(if release { "release" } else { "debug" }).join(name))
+}
+
+/// Cargo's folder of what it built.
+pub(crate) fn target() -> PathBuf {
+    std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| PathBuf::from("target"), PathBuf::from)
 }

@@ -4,7 +4,7 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::{Outcome, Stop, cargo};
+use crate::{Outcome, Stop, apt, cargo};
 
 /// Folders in which drivers announce themselves to the Vulkan loader.
 const ICD_FOLDERS: [&str; 4] =
@@ -30,14 +30,33 @@ and try again. They bring a software driver: no graphics card is needed.";
 pub(crate) struct Vulkan {
     /// Variables that point nowhere and must not reach them.
     unset: Vec<&'static str>,
+    /// One more driver beside those of the system: a variable and its value.
+    added: Option<(&'static str, OsString)>,
 }
 
 impl Vulkan {
     /// Prepares a child.
     pub(crate) fn apply(&self, command: &mut Command) {
+        // Mesa's device selection complains on standard error where it is missing.
+        if cfg!(target_os = "linux") && std::env::var_os("XDG_RUNTIME_DIR").is_none() {
+            command.envs(runtime_folder().map(|folder| ("XDG_RUNTIME_DIR", folder)));
+        }
         for name in &self.unset {
             command.env_remove(name);
         }
+        command.envs(self.added.iter().map(|(name, value)| (name, value)));
+    }
+
+    /// The same with one more driver, by its manifest.
+    pub(crate) fn with_driver(self, manifest: &Path) -> Self {
+        let is_set = |name: &&str| !self.unset.contains(name) && std::env::var_os(name).is_some_and(|v| !v.is_empty());
+        // The loader looks at the second variable only where the first ones are missing.
+        let name = OVERRIDES.into_iter().find(is_set).unwrap_or("VK_ADD_DRIVER_FILES");
+        let present = std::env::var_os(name).unwrap_or_default();
+        let paths = std::env::split_paths(&present).filter(|p| !p.as_os_str().is_empty()).chain([manifest.to_owned()]);
+        // A path with a colon in it cannot be named at all.
+        let added = std::env::join_paths(paths).ok().map(|value| (name, value));
+        Self { added, ..self }
     }
 }
 
@@ -47,7 +66,7 @@ pub(crate) fn ensure() -> Outcome<Vulkan> {
     if !cfg!(target_os = "linux") {
         return Ok(Vulkan::default());
     }
-    let vulkan = Vulkan { unset: dead_overrides() };
+    let vulkan = Vulkan { unset: dead_overrides(), ..Vulkan::default() };
     for name in &vulkan.unset {
         eprintln!("xtask: {name} points to no driver; it is left out of what is run from here");
     }
@@ -62,6 +81,13 @@ pub(crate) fn ensure() -> Outcome<Vulkan> {
     } else {
         Err(Stop(3, REMEDY.into()))
     }
+}
+
+/// A folder below `target` in place of the one that a login session would have; `None` where it cannot be made.
+fn runtime_folder() -> Option<PathBuf> {
+    let folder = std::path::absolute(cargo::target().join("runtime")).ok()?;
+    std::fs::create_dir_all(&folder).ok()?;
+    Some(folder)
 }
 
 /// Override variables that are set and name not one file that exists.
@@ -101,20 +127,11 @@ fn has_loader() -> bool {
     String::from_utf8_lossy(&list).contains("libvulkan.so.1")
 }
 
-/// On Debian and its kin, as root: fetches the loader and Mesa's drivers.
+/// Fetches the loader and Mesa's drivers.
 fn install() -> Outcome {
-    let is_root = Command::new("id").arg("-u").output().is_ok_and(|o| o.stdout.trim_ascii() == b"0");
-    let has_apt = Path::new("/usr/bin/apt-get").exists();
-    if !is_root || !has_apt {
+    if !apt::is_usable() {
         return Err(Stop(3, REMEDY.into()));
     }
-    eprintln!("xtask: no Vulkan driver; installing {} with apt-get", APT_PACKAGES.join(" and "));
-    let apt = |args: &[&str]| {
-        let mut command = Command::new("apt-get");
-        // Progress goes to standard error, so that what a task prints stays its own.
-        command.args(args).env("DEBIAN_FRONTEND", "noninteractive").stdout(std::io::stderr());
-        cargo::wait(&mut command).map_err(|Stop(..)| Stop(3, format!("apt-get {} failed\n{REMEDY}", args.join(" "))))
-    };
-    apt(&["-q", "update"])?;
-    apt(&[&["-q", "install", "-y", "--no-install-recommends"], &APT_PACKAGES[..]].concat())
+    eprintln!("xtask: no Vulkan driver");
+    apt::install(&APT_PACKAGES).map_err(|Stop(_, message)| Stop(3, format!("{message}\n{REMEDY}")))
 }

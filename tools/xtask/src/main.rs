@@ -1,11 +1,13 @@
 //! Chores of this repository: `cargo xtask TASK`. Standard library only, so that it builds in a second.
 
+mod apt;
 mod badinput;
 mod cargo;
 mod demo;
 mod driver;
 mod goldens;
 mod lint;
+mod test;
 
 use std::path::PathBuf;
 use std::process::exit;
@@ -14,7 +16,8 @@ const HELP: &str = "\
 cargo xtask TASK
 
   demo [MODEL]              check the graphics driver, build, draw a character, say where the picture is
-  test [ARGS…]              check the graphics driver, run all tests; ARGS go to `cargo test`
+  test [ARGS…]              check the graphics driver, run all tests; ARGS go to `cargo test`. Without them, those of
+                            pictures run again on SwiftShader where a browser brought it
   lint                      format, clippy, docs, words that must not be in the tree
   goldens                   run the golden tests and list what differs
   goldens --bless NAME…     accept these pictures, after looking at them
@@ -50,7 +53,7 @@ fn run(task: &str, args: &[String]) -> Outcome {
 
     match task {
         "demo" => demo::run(&args),
-        "test" => cargo::run(&with(&["test", "--workspace"], &args), &driver::ensure()?),
+        "test" => test::run(&args),
         "lint" => lint::run(),
         "goldens" => goldens::run(&args),
         "compare-references" => {

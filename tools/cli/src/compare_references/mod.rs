@@ -3,29 +3,31 @@
 //! `DIR/reference/**/NAME.json` states model, camera, light and background of `NAME.png`; the model lies in `DIR` under
 //! the same sub-folder. Silhouettes differ between renderers by how edges are covered, so a band along them is left
 //! out of the counts of wrong pixels. Parts that come from a plain PBR material are shaded as toon on purpose; the
-//! second set of numbers leaves them out.
+//! second set of numbers leaves them out. The third does so too and has the known faults of the other renderer
+//! reproduced: what it does not explain is ours.
 
+mod figures;
+mod known;
+
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use glam::Vec3;
 use hikage::color::{LinearRgb, Srgb};
-use hikage::golden::{Blob, Tolerance, compare, largest_blob, sheet};
-use hikage::material::Origin;
+use hikage::golden::{Tolerance, compare, sheet};
+use hikage::material::{Material, Origin};
 use hikage::picture::{read_png, write_png};
 use hikage::scene::{Ambient, Camera, DirectionalLight, Image, Lights, Scene};
 use hikage::{Background, Channel, Gpu, GpuScene, Output, Renderer, View};
 use serde::{Deserialize, Serialize};
 
+use self::figures::{BAND, Figures, OFF, band, differences, figures, part_ids};
+use self::known::Known;
 use crate::failure::Failure;
 use crate::output::{Table, print, print_json};
 use crate::spinner::Spinner;
 use crate::{args, setup};
-
-/// A pixel is off where a channel differs by more than this.
-const OFF: u8 = 8;
-/// Half the width of the band along silhouettes, pixels.
-const BAND: usize = 2;
 
 /// Arguments of `hikage compare-references`.
 #[derive(clap::Args)]
@@ -88,25 +90,23 @@ struct ReferenceAmbient {
     unit_intensity: f32,
 }
 
-/// Numbers over a set of pixels.
-#[derive(Clone, Copy, Default, Serialize)]
-struct Figures {
-    /// Pixels in the set, without the band.
-    pixels: u32,
-    /// Mean absolute difference over RGB of all pixels of the set, band included. Range 0..255.
-    mean_abs: f64,
-    /// Share of the pixels outside the band that are off. Range 0..1.
-    off_share: f64,
-    /// Largest group of them.
-    largest_blob: Option<Blob>,
-}
-
 #[derive(Serialize)]
 struct Row {
     name: String,
     all: Figures,
     /// Without parts that come from a PBR material; `None` where no other part is seen.
     toon: Option<Figures>,
+    /// The same with the known departures of the references' renderer.
+    explained: Option<Explained>,
+}
+
+#[derive(Serialize)]
+struct Explained {
+    /// Departures that materials in view have.
+    known: BTreeSet<Known>,
+    figures: Figures,
+    /// Share of the parts' pixels that is left out of the figures. Range 0..1.
+    left_out: f64,
 }
 
 #[derive(Serialize)]
@@ -188,29 +188,55 @@ impl Studio {
 
         // Also refuses other sizes.
         let report = compare(&theirs, &ours, &Tolerance { channel: OFF, ..Tolerance::default() })?;
-        let in_band = band(&ids, ours.width as usize);
-        let is_toon = |id: u16| {
-            id == 0
-                || gpu_scene
-                    .part_material(usize::from(id) - 1)
-                    .and_then(|m| scene.materials.get(m))
-                    .is_some_and(|m| matches!(m.origin, Origin::Mtoon0 | Origin::Mtoon1 | Origin::Unlit))
+        let write = |ending: &str, ours: &Image, figures: &Figures| -> Result<(), Failure> {
+            let Some(out) = &args.write else { return Ok(()) };
+            let report = hikage::golden::Report { largest_blob: figures.largest_blob, ..report.clone() };
+            let file_name = format!("{}{ending}.png", name.replace(['/', '\\'], "_"));
+            Ok(write_png(out.join(file_name), &sheet(&theirs, ours, Some(&report))?)?)
         };
-        let mut toon_ids = vec![None; usize::from(u16::MAX) + 1];
-        let toon: Vec<bool> =
-            ids.iter().map(|id| *toon_ids[usize::from(*id)].get_or_insert_with(|| is_toon(*id))).collect();
+        let in_band = band(&ids, ours.width as usize);
+        let compared = differences(&theirs, &ours);
+        let all = figures(&compared, ours.width, &in_band, |_| true);
+        write("", &ours, &all)?;
 
-        let differences = differences(&theirs, &ours);
-        let all = figures(&differences, ours.width, &in_band, |_| true);
-        if let Some(out) = &args.write {
-            let report = hikage::golden::Report { largest_blob: all.largest_blob, ..report };
-            let file_name = format!("{}.png", name.replace(['/', '\\'], "_"));
-            write_png(out.join(file_name), &sheet(&theirs, &ours, Some(&report))?)?;
+        let material = |id: u16| scene.materials.get(gpu_scene.part_material(usize::from(id).checked_sub(1)?)?);
+        let materials: Vec<Option<&Material>> = ids.iter().map(|id| material(*id)).collect();
+        let toon_materials: Vec<&Material> =
+            BTreeSet::from_iter(&ids).into_iter().filter_map(|id| material(*id)).filter(|m| !is_pbr(m)).collect();
+        if toon_materials.is_empty() {
+            return Ok(Row { name: name.to_owned(), all, toon: None, explained: None });
         }
-        let shows_toon = ids.iter().zip(&toon).any(|(id, toon)| *id != 0 && *toon);
-        let toon = shows_toon.then(|| figures(&differences, ours.width, &in_band, |i| toon[i]));
-        Ok(Row { name: name.to_owned(), all, toon })
+        let in_toon = |i: usize| !materials[i].is_some_and(is_pbr);
+        let toon = figures(&compared, ours.width, &in_band, in_toon);
+
+        let known: BTreeSet<Known> = toon_materials.iter().flat_map(|m| Known::of(m)).collect();
+        let has_normal_map = |m: &Option<&Material>| m.is_some_and(|m| m.normal_map.is_some() && !is_pbr(m));
+        let left_out =
+            known::with_outlines(&materials.iter().map(has_normal_map).collect::<Vec<_>>(), ours.width as usize);
+        let parts = (0..ids.len()).filter(|i| materials[*i].is_some() && in_toon(*i));
+        let (shown, hidden) = parts.fold((0u32, 0u32), |(all, out), i| (all + 1, out + u32::from(left_out[i])));
+        let like_theirs = if known.iter().any(|k| *k != Known::Normal) {
+            let scene = known::reproduce(scene, view.camera.eye.distance(view.camera.target));
+            let mut gpu_scene = self.renderer.upload(&scene)?;
+            setup::pose(&self.gpu, &mut gpu_scene, &scene, &expressions)?;
+            self.renderer.render(&mut gpu_scene, &view)?
+        } else {
+            ours
+        };
+        let compared = differences(&theirs, &like_theirs);
+        let explained = figures(&compared, like_theirs.width, &in_band, |i| in_toon(i) && !left_out[i]);
+        if !known.is_empty() {
+            write(".explained", &like_theirs, &explained)?;
+        }
+        let left_out = f64::from(hidden) / f64::from(shown.max(1));
+        let explained = Some(Explained { known, figures: explained, left_out });
+        Ok(Row { name: name.to_owned(), all, toon: Some(toon), explained })
     }
+}
+
+/// Whether the file has no toon description of it; we shade it as toon all the same.
+fn is_pbr(material: &Material) -> bool {
+    !matches!(material.origin, Origin::Mtoon0 | Origin::Mtoon1 | Origin::Unlit)
 }
 
 fn view(reference: &Reference) -> Result<View, String> {
@@ -245,69 +271,6 @@ fn view(reference: &Reference) -> Result<View, String> {
     })
 }
 
-/// Part number + 1 of every pixel, 0 for background.
-fn part_ids(picture: &Image) -> Vec<u16> {
-    picture.pixels.chunks_exact(4).map(|p| u16::from_le_bytes([p[0], p[1]])).collect()
-}
-
-/// Which pixels have another part within [`BAND`] pixels, diagonals included.
-fn band(ids: &[u16], width: usize) -> Vec<bool> {
-    // The square window is taken as a row, then a column of the row's extremes.
-    let height = ids.len() / width.max(1);
-    let span = |at: usize, end: usize| at.saturating_sub(BAND)..(at + BAND + 1).min(end);
-    let mut rows = Vec::with_capacity(ids.len());
-    for row in ids.chunks_exact(width.max(1)) {
-        for x in 0..width {
-            let near = &row[span(x, width)];
-            rows.push(near.iter().fold((u16::MAX, 0), |(low, high), id| (low.min(*id), high.max(*id))));
-        }
-    }
-    (0..ids.len())
-        .map(|i| {
-            let (x, y) = (i % width, i / width);
-            let near = span(y, height).map(|y| rows[y * width + x]);
-            let (low, high) = near.fold((u16::MAX, 0), |a: (u16, u16), b| (a.0.min(b.0), a.1.max(b.1)));
-            low != high
-        })
-        .collect()
-}
-
-/// Sum over RGB, and largest over RGBA, of the absolute differences of every pixel, both laid on mid grey.
-fn differences(theirs: &Image, ours: &Image) -> Vec<(u16, u8)> {
-    let on_grey = |p: &[u8], i: usize| {
-        let alpha = u32::from(p[3]);
-        ((u32::from(p[i]) * alpha + 128 * (255 - alpha) + 127) / 255) as u8
-    };
-    let pairs = theirs.pixels.chunks_exact(4).zip(ours.pixels.chunks_exact(4));
-    pairs
-        .map(|(a, b)| {
-            let rgb = [0, 1, 2].map(|i| on_grey(a, i).abs_diff(on_grey(b, i)));
-            let largest = rgb.iter().fold(a[3].abs_diff(b[3]), |m, d| m.max(*d));
-            (rgb.iter().map(|d| u16::from(*d)).sum(), largest)
-        })
-        .collect()
-}
-
-fn figures(differences: &[(u16, u8)], width: u32, in_band: &[bool], counts: impl Fn(usize) -> bool) -> Figures {
-    let (mut sum, mut members, mut pixels, mut off_pixels) = (0u64, 0u64, 0u32, 0u32);
-    let mut off = vec![false; differences.len()];
-    for (i, (rgb, largest)) in differences.iter().enumerate().filter(|(i, _)| counts(*i)) {
-        sum += u64::from(*rgb);
-        members += 1;
-        if !in_band[i] {
-            pixels += 1;
-            off[i] = *largest > OFF;
-            off_pixels += u32::from(off[i]);
-        }
-    }
-    Figures {
-        pixels,
-        mean_abs: sum as f64 / (members.max(1) * 3) as f64,
-        off_share: f64::from(off_pixels) / f64::from(pixels.max(1)),
-        largest_blob: largest_blob(&off, width),
-    }
-}
-
 fn blob(figures: &Figures) -> String {
     figures.largest_blob.map_or(0, |b| b.pixels).to_string()
 }
@@ -317,39 +280,56 @@ fn at(figures: &Figures) -> String {
     figures.largest_blob.map_or(String::new(), |b| format!("{},{}", b.min[0], b.min[1]))
 }
 
+fn percent(share: f64) -> String {
+    format!("{:.3}", share * 100.0)
+}
+
 fn text(outcome: &Outcome) -> String {
-    let mut table = Table::new(&["reference", "off %", "blob px", "at", "mean", "all: off %", "blob px", "mean"]);
+    let mut table = Table::new(&[
+        "reference", "off %", "blob px", "at", "mean", "explained", "blob px", "left out %", "known", "all: off %",
+        "blob px", "mean",
+    ]);
     for row in &outcome.rows {
         let toon = |text: fn(&Figures) -> String| row.toon.as_ref().map_or("-".into(), text);
+        let explained = |text: fn(&Explained) -> String| row.explained.as_ref().map_or("-".into(), text);
         table.row([
             row.name.clone(),
-            toon(|f| format!("{:.3}", f.off_share * 100.0)),
+            toon(|f| percent(f.off_share)),
             toon(blob),
             toon(at),
             toon(|f| format!("{:.3}", f.mean_abs)),
-            format!("{:.3}", row.all.off_share * 100.0),
+            explained(|e| percent(e.figures.off_share)),
+            explained(|e| blob(&e.figures)),
+            explained(|e| format!("{:.1}", e.left_out * 100.0)),
+            explained(|e| e.known.iter().map(|k| k.name()).collect::<Vec<_>>().join(" ")),
+            percent(row.all.off_share),
             blob(&row.all),
             format!("{:.3}", row.all.mean_abs),
         ]);
     }
     let mut out = table.text();
     let toon: Vec<&Figures> = outcome.rows.iter().filter_map(|r| r.toon.as_ref()).collect();
-    let mean = |sum: f64, count: usize| sum / count.max(1) as f64;
+    let explained: Vec<&Figures> = outcome.rows.iter().filter_map(|r| Some(&r.explained.as_ref()?.figures)).collect();
+    let off = |of: &[&Figures]| {
+        let mean = of.iter().map(|f| f.off_share).sum::<f64>() / of.len().max(1) as f64;
+        let near = of.iter().filter(|f| f.off_share < 0.005).count();
+        format!("mean off {} %, {near} under 0.5 %", percent(mean))
+    };
+    let _ = writeln!(out, "{} pictures on {}", outcome.rows.len(), outcome.adapter);
     let _ = writeln!(
         out,
-        "{} pictures on {}, {} with parts not from PBR: mean off {:.3} %, mean difference {:.3}/255, {} under 0.5 %; all materials: mean off {:.3} %",
-        outcome.rows.len(),
-        outcome.adapter,
+        "{} with parts not from PBR: {}, mean difference {:.3}/255",
         toon.len(),
-        mean(toon.iter().map(|f| f.off_share * 100.0).sum(), toon.len()),
-        mean(toon.iter().map(|f| f.mean_abs).sum(), toon.len()),
-        toon.iter().filter(|f| f.off_share < 0.005).count(),
-        mean(outcome.rows.iter().map(|r| r.all.off_share * 100.0).sum(), outcome.rows.len()),
+        off(&toon),
+        toon.iter().map(|f| f.mean_abs).sum::<f64>() / toon.len().max(1) as f64,
     );
+    let _ = writeln!(out, "explained: {}", off(&explained));
+    let _ = writeln!(out, "all materials: {}", off(&outcome.rows.iter().map(|r| &r.all).collect::<Vec<_>>()));
     let _ = writeln!(
         out,
         "off: a channel over {OFF}/255, outside {BAND} px along silhouettes; left: without parts made from PBR materials"
     );
+    out += known::LEGEND;
     for (name, why) in &outcome.failed {
         let _ = writeln!(out, "failed: {name}: {}", crate::failure::printable(why));
     }
@@ -374,27 +354,4 @@ fn json_files(root: &Path) -> Result<Vec<PathBuf>, Failure> {
     }
     found.sort();
     Ok(found)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_band_reaches_two_pixels_to_each_side_and_over_corners() {
-        let mut ids = vec![1u16; 81];
-        ids[4 * 9 + 4] = 2;
-        let band = band(&ids, 9);
-        let inside = |x: usize, y: usize| x.abs_diff(4) <= 2 && y.abs_diff(4) <= 2;
-        for (i, found) in band.iter().enumerate() {
-            assert_eq!(*found, inside(i % 9, i / 9), "{i}");
-        }
-    }
-
-    #[test]
-    fn colour_under_alpha_0_does_not_count_and_alpha_does() {
-        let one = |pixel: [u8; 4]| Image { width: 1, height: 1, pixels: pixel.to_vec(), ..Image::default() };
-        assert_eq!(differences(&one([9, 9, 9, 0]), &one([200, 0, 0, 0])), [(0, 0)]);
-        assert_eq!(differences(&one([128, 128, 128, 0]), &one([128, 128, 128, 20])), [(0, 20)]);
-    }
 }
