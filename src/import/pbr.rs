@@ -7,7 +7,7 @@ use super::json::Json;
 
 /// Shade over lit colour, linear: about three quarters as bright to the eye, turned a little towards violet, as painters
 /// shade skin, cloth and hair alike.
-const SHADE_TINT: [f32; 3] = [0.52, 0.43, 0.55];
+const SHADE_TINT: [f32; 3] = [0.49, 0.45, 0.53];
 
 /// Lit colour as it is, shade a darker, cooler version of it over the same texture.
 pub(super) fn apply(json: &Json, material: &mut Material) -> Result<()> {

@@ -123,7 +123,8 @@ impl View {
         let (low, high) = bounds(scene);
         let world = scene.rest_world_from_nodes();
         let joint = |bone, name| Some(world.get(joint_node(scene, bone, name)?)?.w_axis.truncate());
-        let (head, hips) = (joint(HumanBone::Head, "head"), joint(HumanBone::Hips, "hips"));
+        let head = joint(HumanBone::Head, "head");
+        let hips = joint(HumanBone::Hips, "hips").or_else(|| joint(HumanBone::Hips, "pelvis"));
         let top = high.y;
         let height = (high.y - low.y).max(1e-3);
         let head_y = head.map_or(low.y + height * 0.82, |h| h.y);
@@ -143,11 +144,12 @@ impl View {
                 let below = hips.map_or(head_y - head_height * 2.2, |h| h.y).min(head_y - head_height * 0.5);
                 (head_center.with_y((above + below) * 0.5), above - below, head_height * 2.2)
             }
-            Framing::Full => {
-                let turned = Quat::from_rotation_y(yaw_rad) * Vec3::X;
-                let width = (high.x - low.x) * turned.x.abs() + (high.z - low.z) * turned.z.abs();
-                ((low + high) * 0.5, height * 1.08, width * 1.08)
-            }
+            // Round the body's axis, so that a turning character keeps its place and size.
+            Framing::Full => (
+                Vec3::new(head_center.x, (low.y + high.y) * 0.5, head_center.z),
+                height * 1.08,
+                radius(low, high, head_center) * 2.0,
+            ),
         };
         let camera = Camera { target, ..Camera::default() };
         let tan = (camera.fov_y_rad * 0.5).tan();
@@ -155,7 +157,7 @@ impl View {
         // The nearest part of the head stands in front of its middle.
         let distance = distance
             + if framing == Framing::Full {
-                (high.z - low.z) * 0.5
+                radius(low, high, head_center) * 0.5
             } else {
                 head_height * 0.5
             };
@@ -196,6 +198,11 @@ impl View {
 fn joint_node(scene: &Scene, bone: HumanBone, name: &str) -> Option<usize> {
     let plain = |n: &str| n.rsplit([':', '_', '.']).next().is_some_and(|last| last.eq_ignore_ascii_case(name));
     scene.bone_node(bone).or_else(|| scene.nodes.iter().position(|n| n.mesh.is_none() && plain(&n.name)))
+}
+
+/// Distance of the farthest side of a box from the vertical axis through `axis`.
+fn radius(low: Vec3, high: Vec3, axis: Vec3) -> f32 {
+    (axis - low).max(high - axis).with_y(0.0).max_element()
 }
 
 /// Bounding box at rest, world space.
