@@ -23,6 +23,9 @@ pub(super) fn split<'a>(bytes: &'a [u8], limits: &Limits) -> Result<Container<'a
     if bytes.starts_with(b"glTF") {
         return split_glb(bytes, limits);
     }
+    if let Ok(format) = image::guess_format(bytes) {
+        return Err(Fault::new("file", format!("found a {format:?} picture, expected glTF JSON or GLB")));
+    }
     Ok(Container { json: parse(bytes, limits)?, bin: None })
 }
 

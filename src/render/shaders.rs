@@ -108,8 +108,10 @@ fn parse_and_validate(text: &str) -> Result<ShaderSummary, (String, String)> {
     let place = |location: Option<naga::SourceLocation>| {
         location.map_or_else(|| "file".to_owned(), |l| format!("line {}:{}", l.line_number, l.line_position))
     };
-    let module =
-        naga::front::wgsl::parse_str(text).map_err(|e| (place(e.location(text)), one_line(e.emit_to_string(text))))?;
+    let module = naga::front::wgsl::parse_str(text).map_err(|e| {
+        let at = e.labels().next().map(|(span, _)| span.location(text));
+        (place(at), one_line(e.emit_to_string(text)))
+    })?;
     let mut validator =
         naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::all());
     validator.validate(&module).map_err(|e| (place(e.location(text)), one_line(e.emit_to_string(text))))?;

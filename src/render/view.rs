@@ -223,7 +223,8 @@ fn bounds(scene: &Scene) -> (Vec3, Vec3) {
                     }
                     _ => world[node],
                 };
-                let p = matrix.transform_point3(Vec3::from(*position));
+                // A box beyond all measure cannot be framed; 1000 km hold anything that was meant.
+                let p = matrix.transform_point3(Vec3::from(*position)).clamp(Vec3::splat(-1e6), Vec3::splat(1e6));
                 (low, high) = (low.min(p), high.max(p));
             }
         }
