@@ -109,7 +109,8 @@ fn parse_and_validate(text: &str) -> Result<ShaderSummary, (String, String)> {
         location.map_or_else(|| "file".to_owned(), |l| format!("line {}:{}", l.line_number, l.line_position))
     };
     let module = naga::front::wgsl::parse_str(text).map_err(|e| {
-        let at = e.labels().next().map(|(span, _)| span.location(text));
+        // Some labels have no place of their own.
+        let at = e.labels().find(|(span, _)| span.is_defined()).map(|(span, _)| span.location(text));
         (place(at), one_line(e.emit_to_string(text)))
     })?;
     let mut validator =
