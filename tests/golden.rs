@@ -205,7 +205,8 @@ fn outlines_of_every_kind() {
         line(OutlineWidth::Screen { height_ratio: 0.03 }, [0.02, 0.1, 0.3], 0.0),
         line(world, [0.1, 0.02, 0.05], 0.0),
     ]);
-    let mask = texture(&mut scene, 64, 64, |x, _| [0, (x % 16 * 17) as u8, 0, 255]);
+    // Along the contour v runs from pole to pole: the line swells four times.
+    let mask = texture(&mut scene, 64, 64, |_, y| [0, (y % 16 * 17) as u8, 0, 255]);
     if let Some(outline) = &mut scene.materials[3].outline {
         outline.width_mask = Some(mask);
     }

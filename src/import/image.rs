@@ -5,7 +5,7 @@ use std::io::Cursor;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
-use image::{DynamicImage, ImageDecoder, codecs};
+use image::{ColorType, DynamicImage, ImageDecoder, codecs};
 
 use crate::scene::Image;
 use crate::{Error, Result};
@@ -132,30 +132,64 @@ impl Probe<'_> {
         caps.max_alloc = Some(self.texture_bytes().saturating_mul(4).saturating_add(1 << 20));
         let cursor = Cursor::new(&*self.bytes);
         let (name, pixels) = match self.format {
-            Format::Png => {
-                ("png", guarded(|| DynamicImage::from_decoder(codecs::png::PngDecoder::with_limits(cursor, caps)?)))
-            }
+            Format::Png => ("png", guarded(|| rgba8(codecs::png::PngDecoder::with_limits(cursor, caps)?))),
             Format::Jpeg => ("jpeg", guarded(|| limited(codecs::jpeg::JpegDecoder::new(cursor)?, caps))),
             Format::Webp => ("webp", guarded(|| limited(codecs::webp::WebPDecoder::new(cursor)?, caps))),
         };
-        let pixels = pixels.map_err(|m| Fault::new(pointer, format!("{name} image is corrupt: {m}")))?;
-        if (pixels.width(), pixels.height()) != (self.width, self.height) {
+        let (size, pixels) = pixels.map_err(|m| Fault::new(pointer, format!("{name} image is corrupt: {m}")))?;
+        if size != (self.width, self.height) {
             return Err(Fault::new(pointer, format!("{name} image: header and data disagree about the size")));
         }
         Ok(Image {
             name: String::new(),
             width: self.width,
             height: self.height,
-            pixels: pixels.into_rgba8().into_raw(),
+            pixels,
             format: name,
             source_bits: self.bits,
         })
     }
 }
 
-fn limited(mut decoder: impl ImageDecoder, caps: image::Limits) -> image::ImageResult<DynamicImage> {
+/// Size and RGBA8 pixels.
+type Decoded = ((u32, u32), Vec<u8>);
+
+fn limited(mut decoder: impl ImageDecoder, caps: image::Limits) -> image::ImageResult<Decoded> {
     decoder.set_limits(caps)?;
-    DynamicImage::from_decoder(decoder)
+    rgba8(decoder)
+}
+
+/// Decodes to RGBA8. Pictures of 8 bits are decoded into the end of the result and spread out from its start, so that no
+/// second copy of them ever stands in memory.
+fn rgba8(decoder: impl ImageDecoder) -> image::ImageResult<Decoded> {
+    let size = decoder.dimensions();
+    let channels: usize = match decoder.color_type() {
+        ColorType::L8 => 1,
+        ColorType::La8 => 2,
+        ColorType::Rgb8 => 3,
+        ColorType::Rgba8 => 4,
+        _ => return Ok((size, DynamicImage::from_decoder(decoder)?.into_rgba8().into_raw())),
+    };
+    let count = (size.0 as usize).saturating_mul(size.1 as usize);
+    let mut pixels = vec![0u8; count.saturating_mul(4)];
+    let start = pixels.len().saturating_sub(count.saturating_mul(channels));
+    decoder.read_image(pixels.get_mut(start..).unwrap_or_default())?;
+    if channels < 4 {
+        for i in 0..count {
+            let from = start.saturating_add(i.saturating_mul(channels));
+            let rgba = match pixels.get(from..from.saturating_add(channels)) {
+                Some(&[l]) => [l, l, l, 255],
+                Some(&[l, a]) => [l, l, l, a],
+                Some(&[r, g, b]) => [r, g, b, 255],
+                _ => break,
+            };
+            let to = i.saturating_mul(4);
+            if let Some(pixel) = pixels.get_mut(to..to.saturating_add(4)) {
+                pixel.copy_from_slice(&rgba);
+            }
+        }
+    }
+    Ok((size, pixels))
 }
 
 /// Runs a decoder; a panic inside it becomes an error.
