@@ -12,7 +12,7 @@
 //!
 //! ```no_run
 //! use hikage::golden::{Goldens, Tolerance};
-//! # fn draw() -> hikage::scene::Image { unimplemented!() }
+//! # fn draw() -> hikage::scene::Image { hikage::scene::Image::default() }
 //! # fn main() -> hikage::Result<()> {
 //! let goldens = Goldens::new("tests/golden");
 //! goldens.check("hello", &draw(), &Tolerance::default())?;
