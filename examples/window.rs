@@ -9,7 +9,7 @@ use hikage::{
     Background, Gpu, GpuScene, Output, Renderer, View,
     color::Srgb,
     import,
-    scene::{Framing, Scene},
+    scene::{Camera, Framing, Scene},
 };
 use winit::{
     application::ApplicationHandler,
@@ -51,6 +51,7 @@ struct Orbit {
     pitch_rad: f32,
     distance: f32,
     target: Vec3,
+    near: f32,
     dragging: bool,
     cursor: [f64; 2],
 }
@@ -59,7 +60,15 @@ impl Orbit {
     fn around(scene: &Scene) -> Self {
         let camera = View::framed(scene, Framing::Portrait, 0.0, [1, 1]).camera;
         let distance = (camera.eye - camera.target).length();
-        Self { yaw_rad: 0.3, pitch_rad: 0.05, distance, target: camera.target, dragging: false, cursor: [0.0; 2] }
+        Self {
+            yaw_rad: 0.3,
+            pitch_rad: 0.05,
+            distance,
+            target: camera.target,
+            near: camera.near,
+            dragging: false,
+            cursor: [0.0; 2],
+        }
     }
 
     fn eye(&self) -> Vec3 {
@@ -103,17 +112,18 @@ impl Shown {
         Ok(scene)
     }
 
-    fn view(&self, scene: &Scene) -> View {
-        let size = [self.config.width, self.config.height];
-        let mut view = View::framed(scene, Framing::Portrait, 0.0, size);
-        view.camera.eye = self.orbit.eye();
-        view.camera.target = self.orbit.target;
-        view.background = Background::Color(Srgb([0x9f, 0xb4, 0xc7]));
-        view.time_s = self.start.elapsed().as_secs_f32();
-        view
+    fn view(&self) -> View {
+        let Orbit { target, near, .. } = self.orbit;
+        View {
+            size: [self.config.width, self.config.height],
+            camera: Camera { eye: self.orbit.eye(), target, near, ..Camera::default() },
+            background: Background::Color(Srgb([0x9f, 0xb4, 0xc7])),
+            time_s: self.start.elapsed().as_secs_f32(),
+            ..View::default()
+        }
     }
 
-    fn draw(&mut self, scene: &Scene) -> Result<(), Box<dyn Error>> {
+    fn draw(&mut self) -> Result<(), Box<dyn Error>> {
         use wgpu::CurrentSurfaceTexture as Current;
         let frame = match self.surface.get_current_texture() {
             Current::Success(frame) | Current::Suboptimal(frame) => frame,
@@ -126,7 +136,7 @@ impl Shown {
         };
         let target = frame.texture.create_view(&wgpu::TextureViewDescriptor::default());
         let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        let view = self.view(scene);
+        let view = self.view();
         self.renderer.encode_frame(&mut encoder, &mut self.character, &view, &target)?;
         self.gpu.queue.submit([encoder.finish()]);
         self.window.pre_present_notify();
@@ -167,7 +177,7 @@ impl App {
                 shown.orbit.distance = (shown.orbit.distance * 0.9f32.powf(notches)).clamp(0.2, 30.0);
             }
             WindowEvent::RedrawRequested => {
-                shown.draw(&self.scene)?;
+                shown.draw()?;
                 shown.window.request_redraw();
             }
             _ => {}

@@ -119,6 +119,26 @@ fn outlines_in_the_world_have_their_width_in_metres() {
 }
 
 #[test]
+fn uv_animation_moves_the_mask_of_the_outline() {
+    let gpu = gpu();
+    let mut scene = scene(vec![(sphere(0.5, 64, 128), grey())]);
+    let upper_half = texture(&mut scene, 64, 64, |_, y| [0, if y < 32 { 255 } else { 0 }, 0, 255]);
+    let width = OutlineWidth::World { metres: 0.06 };
+    let outline = Outline { width, color: [0.0, 1.0, 0.0], lighting_mix: 0.0, width_mask: Some(upper_half) };
+    scene.materials[0].outline = Some(outline);
+    scene.materials[0].uv_animation.scroll_v_per_s = 0.5;
+    let mut view = view(128, 4.0);
+    let mut green_at = |time_s: f32| {
+        view.time_s = time_s;
+        let image = render(&gpu, &scene, &view);
+        let green = |y: u32| (0..128).any(|x| pixel(&image, x, y)[1] > 200 && pixel(&image, x, y)[0] < 60);
+        (green(40), green(88))
+    };
+    assert_eq!(green_at(0.0), (true, false), "the upper half has a line");
+    assert_eq!(green_at(1.0), (false, true), "half a texture later the lower half has it");
+}
+
+#[test]
 fn hard_edges_do_not_split_the_outline() {
     let mut material = two_tone();
     let width = OutlineWidth::World { metres: 0.06 };
@@ -370,6 +390,26 @@ fn an_instance_moves_like_the_camera_moves_back() {
     // Two instances are two characters.
     moved.instances.push(Mat4::from_translation(offset + Vec3::X * 0.5));
     assert_ne!(render(&gpu, &scene, &moved).pixels, there.pixels);
+}
+
+#[test]
+fn a_turned_character_is_sorted_as_it_stands() {
+    let glass = |color: [f32; 3]| Material {
+        base: Base { color: [color[0], color[1], color[2], 0.5], texture: None },
+        shading: Shading::Unlit,
+        alpha: Alpha { mode: AlphaMode::Blend, ..Alpha::default() },
+        double_sided: true,
+        ..Material::default()
+    };
+    let scene = scene(vec![
+        (square([0.0, 0.0], 0.3, 0.2), glass([1.0, 0.0, 0.0])),
+        (square([0.0, 0.0], 0.3, -0.2), glass([0.0, 1.0, 0.0])),
+    ]);
+    let mut view = view(64, 4.0);
+    view.background = Background::Color(Srgb([0; 3]));
+    view.instances = vec![Mat4::from_rotation_y(std::f32::consts::PI)];
+    let turned = pixel(&render(&gpu(), &scene, &view), 32, 32);
+    close(&turned[..3], &srgb([0.25, 0.5, 0.0]), 1, "green, now near, over red");
 }
 
 #[test]

@@ -21,15 +21,16 @@ pub(crate) struct Draw {
 
 impl GpuScene {
     /// Sorts the blended draws: those that write depth first, then by queue offset, then far before near (MToon,
-    /// "Render Queue"); equal ones keep the order of the file.
+    /// "Render Queue"); equal ones keep the order of the file. `eye` is in character space.
     pub(crate) fn sort_transparent(&mut self, eye: Vec3) {
         let Self { draws, transparent_order, .. } = self;
         transparent_order.clear();
         transparent_order.extend((0..draws.len()).filter(|&i| draws[i].blend));
         let depth = |i: usize| draws[i].center.distance_squared(eye);
-        transparent_order.sort_by(|&a, &b| {
+        transparent_order.sort_unstable_by(|&a, &b| {
             let (x, y) = (&draws[a], &draws[b]);
-            (!x.write_depth, x.queue_offset).cmp(&(!y.write_depth, y.queue_offset)).then(depth(b).total_cmp(&depth(a)))
+            let order = (!x.write_depth, x.queue_offset).cmp(&(!y.write_depth, y.queue_offset));
+            order.then(depth(b).total_cmp(&depth(a))).then(a.cmp(&b))
         });
     }
 }

@@ -200,7 +200,9 @@ impl Renderer {
             }
             self.gpu.queue.write_buffer(&scene.instances, 0, bytemuck::cast_slice(&scene.instance_rows));
         }
-        scene.sort_transparent(view.camera.eye);
+        // Draws of a crowd share one order: that of its first character.
+        let eye = view.instances.first().map_or(view.camera.eye, |m| m.inverse().transform_point3(view.camera.eye));
+        scene.sort_transparent(eye);
         if self.color_targets.as_ref().is_none_or(|t| t.size != view.size) && view.channel == Channel::Final {
             self.color_targets = Some(ColorTargets::new(&self.gpu, view.size, self.output));
         }
@@ -293,8 +295,8 @@ impl Layouts {
         });
         let mut entries = vec![entry(0, both, uniform(size_of::<uniforms::MaterialUniform>() as u64))];
         for slot in 0..9 {
-            // Only the width mask of the outline (slot 7) is read by vertices.
-            let stages = if slot == 7 { both } else { wgpu::ShaderStages::FRAGMENT };
+            // The width mask of the outline and the mask of the UV animation that moves it are read by vertices.
+            let stages = if slot >= 7 { both } else { wgpu::ShaderStages::FRAGMENT };
             entries.push(entry(
                 1 + 2 * slot,
                 stages,

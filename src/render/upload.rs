@@ -40,9 +40,18 @@ pub struct GpuScene {
     source_materials: Vec<Material>,
     posed_materials: BTreeMap<usize, Material>,
     rig: Rig,
+    scratch: Scratch,
     part_materials: Vec<usize>,
     triangles: usize,
     texture_bytes: u64,
+}
+
+/// Lists that every pose fills anew, kept so that an animated character allocates nothing.
+#[derive(Debug, Default)]
+struct Scratch {
+    world: Vec<Mat4>,
+    joints: Vec<AffineRows>,
+    weights: Vec<f32>,
 }
 
 /// Bytes that a [`GpuScene`] takes on the GPU.
@@ -131,6 +140,7 @@ impl Renderer {
             source_materials: scene.materials.clone(),
             posed_materials: BTreeMap::new(),
             rig: geometry.rig,
+            scratch: Scratch::default(),
             part_materials: geometry.part_materials,
             triangles: geometry.indices.len() / 3,
             texture_bytes: textures.bytes,
@@ -210,9 +220,10 @@ impl GpuScene {
     /// Moves the scene to a pose: joint matrices, morph weights and material changes are written to the GPU; the
     /// vertices follow in the next frame.
     pub fn set_pose(&mut self, gpu: &Gpu, scene: &Scene, pose: &Pose) {
-        let world = scene.world_from_nodes(&pose.locals);
+        let Scratch { world, joints, weights } = &mut self.scratch;
+        scene.world_from_nodes_into(&pose.locals, world);
         let matrix = |node: usize| world.get(node).copied().unwrap_or(Mat4::IDENTITY);
-        let mut joints: Vec<AffineRows> = Vec::with_capacity(self.deform.joint_count);
+        joints.clear();
         for palette in &self.rig.palettes {
             match palette {
                 Palette::Rigid(node) => joints.push(matrix(*node).into()),
@@ -221,14 +232,14 @@ impl GpuScene {
                 }
             }
         }
-        let mut weights: Vec<f32> = Vec::with_capacity(self.deform.weight_count);
+        weights.clear();
         for &(node, targets) in &self.rig.weights {
             let of_node = pose.morph_weights.get(node).map_or(&[] as &[f32], Vec::as_slice);
             weights.extend((0..targets).map(|t| of_node.get(t).copied().unwrap_or(0.0)));
         }
-        gpu.queue.write_buffer(&self.deform.joints, 0, bytemuck::cast_slice(&joints));
+        gpu.queue.write_buffer(&self.deform.joints, 0, bytemuck::cast_slice(joints));
         if !weights.is_empty() {
-            gpu.queue.write_buffer(&self.deform.weights, 0, bytemuck::cast_slice(&weights));
+            gpu.queue.write_buffer(&self.deform.weights, 0, bytemuck::cast_slice(weights));
         }
         for index in self.posed_materials.keys().chain(pose.materials.keys()) {
             if let Some(material) = pose.materials.get(index).or_else(|| self.source_materials.get(*index)) {

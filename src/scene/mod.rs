@@ -119,13 +119,19 @@ impl Scene {
     /// `locals` has one entry a node; missing ones are taken from rest.
     #[must_use]
     pub fn world_from_nodes(&self, locals: &[Transform]) -> Vec<Mat4> {
-        let mut world: Vec<Mat4> = Vec::with_capacity(self.nodes.len());
+        let mut world = Vec::with_capacity(self.nodes.len());
+        self.world_from_nodes_into(locals, &mut world);
+        world
+    }
+
+    /// [`Scene::world_from_nodes`] into a list that is used again.
+    pub(crate) fn world_from_nodes_into(&self, locals: &[Transform], world: &mut Vec<Mat4>) {
+        world.clear();
         for (index, node) in self.nodes.iter().enumerate() {
             let local = locals.get(index).unwrap_or(&node.transform).matrix();
             let parent = node.parent.and_then(|p| world.get(p).copied());
             world.push(parent.map_or(local, |parent| parent * local));
         }
-        world
     }
 
     /// Matrices `world_from_node` at rest.

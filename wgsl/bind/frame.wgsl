@@ -19,16 +19,13 @@ struct Frame {
     time_s: f32,
     // Unit, from the surface to the light.
     to_light: vec3f,
-    // 1 / tan(fov_y / 2).
-    focal: f32,
-    // Linear, times intensity.
-    light_color: vec3f,
     // Width over height.
     aspect: f32,
-    ambient_sky: vec3f,
+    // Linear, times intensity.
+    light_color: vec3f,
     punctual_count: u32,
+    ambient_sky: vec3f,
     ambient_ground: vec3f,
-    near: f32,
     punctual: array<PunctualLight, 4>,
 }
 

@@ -60,6 +60,11 @@ fn animated_uv(options: SurfaceOptions, uv: vec4f) -> vec4f {
             animation_mask_texture, animation_mask_sampler, texture_uv(options, uv, material.animation_mask_uv)
         ).b;
     }
+    return moved_uv(uv, mask);
+}
+
+// Both UV sets moved by as much of the material's animation as `mask` says.
+fn moved_uv(uv: vec4f, mask: f32) -> vec4f {
     let scroll = material.scroll_per_s * frame.time_s;
     let rotation = material.rotation_rad_per_s * frame.time_s;
     return vec4f(
@@ -91,8 +96,10 @@ fn shade_surface(options: SurfaceOptions, in: SurfaceInput) -> vec4f {
     let texel = surface_texel(options, in, uv);
     var base = material.base_color * texel;
     if options.alpha_coverage {
-        // The cut as a ramp one pixel wide. 1e-4: where alpha is flat there is no ramp.
-        base.a = saturate((base.a - material.alpha_cutoff) / max(fwidth(base.a), 1e-4) + 0.5);
+        // The cut as a ramp one pixel wide, but never so wide that alpha 1 is not whole or alpha 0 not open. 1e-4: where
+        // alpha is flat there is no ramp.
+        let widest = 2.0 * min(material.alpha_cutoff, 1.0 - material.alpha_cutoff);
+        base.a = saturate((base.a - material.alpha_cutoff) / max(min(fwidth(base.a), widest), 1e-4) + 0.5);
     } else if options.alpha_mask && base.a < material.alpha_cutoff {
         discard;
     }

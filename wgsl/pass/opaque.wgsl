@@ -1,7 +1,6 @@
 // Opaque and alpha-masked surfaces; with several samples a pixel the cut covers as many samples as it should.
-import package::bind::frame::frame;
 import package::bind::options::surface_options;
-import package::bind::surface::{SurfaceInput, shade_surface};
+import package::bind::surface::shade_surface;
 import package::bind::varying::{Varying, surface_varying, surface_input};
 import package::bind::vertex::VertexInput;
 import package::lib::color::srgb_from_linear;

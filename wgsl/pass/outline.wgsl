@@ -1,8 +1,10 @@
 // Outlines: back faces pushed outwards along smoothed normals.
 import package::bind::frame::frame;
-import package::bind::material::{material, outline_mask_texture, outline_mask_sampler};
+import package::bind::material::{
+    material, animation_mask_texture, animation_mask_sampler, outline_mask_texture, outline_mask_sampler,
+};
 import package::bind::options::surface_options;
-import package::bind::surface::{SurfaceInput, animated_uv, shade_surface, texture_uv};
+import package::bind::surface::{moved_uv, shade_surface, texture_uv};
 import package::bind::varying::{Varying, surface_varying, surface_input};
 import package::bind::vertex::{VertexInput, world_direction, world_position};
 import package::lib::color::srgb_from_linear;
@@ -23,9 +25,20 @@ fn vs_main(v: VertexInput) -> Varying {
     var out = surface_varying(surface_options(), v);
     var width = material.outline_width;
     if WIDTH_MASK {
+        let options = surface_options();
+        var uv = v.uv;
+        if options.uv_animation {
+            var mask = 1.0;
+            if options.uv_animation_mask {
+                mask = textureSampleLevel(
+                    animation_mask_texture, animation_mask_sampler,
+                    texture_uv(options, v.uv, material.animation_mask_uv), 0.0
+                ).b;
+            }
+            uv = moved_uv(v.uv, mask);
+        }
         width *= textureSampleLevel(
-            outline_mask_texture, outline_mask_sampler,
-            texture_uv(surface_options(), v.uv, material.outline_mask_uv), 0.0
+            outline_mask_texture, outline_mask_sampler, texture_uv(options, uv, material.outline_mask_uv), 0.0
         ).g;
     }
     let normal = world_direction(v, v.frame.z);

@@ -1,6 +1,6 @@
 // Blended surfaces; the output is premultiplied.
 import package::bind::options::surface_options;
-import package::bind::surface::{SurfaceInput, shade_surface};
+import package::bind::surface::shade_surface;
 import package::bind::varying::{Varying, surface_varying, surface_input};
 import package::bind::vertex::VertexInput;
 import package::lib::color::srgb_from_linear;

@@ -39,8 +39,6 @@ pub(crate) struct DeformBuffers {
     pub weights: wgpu::Buffer,
     /// First vertex stream of every draw.
     pub deformed: wgpu::Buffer,
-    pub joint_count: usize,
-    pub weight_count: usize,
     group: wgpu::BindGroup,
     vertices: u32,
     fixed_bytes: u64,
@@ -103,16 +101,7 @@ impl DeformPass {
             entries: &entries,
         });
         let fixed_bytes = bound[..5].iter().map(|b| b.size()).sum();
-        DeformBuffers {
-            joints,
-            weights,
-            deformed,
-            joint_count: input.joint_count,
-            weight_count: input.weight_count,
-            group,
-            vertices: input.source.len() as u32,
-            fixed_bytes,
-        }
+        DeformBuffers { joints, weights, deformed, group, vertices: input.source.len() as u32, fixed_bytes }
     }
 
     /// Deforms all vertices of the scene.

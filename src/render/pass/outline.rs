@@ -69,7 +69,12 @@ impl OutlinePass {
         };
         if !shaded {
             // A plain colour needs nothing of the surface but the UVs of its mask: fewer pipelines.
-            key.flags = SurfaceFlags { uv_transforms: flags.uv_transforms, ..SurfaceFlags::default() };
+            let SurfaceFlags { uv_transforms, uv_animation, uv_animation_mask, .. } = flags;
+            key.flags = if key.width_mask {
+                SurfaceFlags { uv_transforms, uv_animation, uv_animation_mask, ..SurfaceFlags::default() }
+            } else {
+                SurfaceFlags::default()
+            };
         }
         let make = || {
             let mut constants = key.flags.constants();
