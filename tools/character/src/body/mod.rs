@@ -1,0 +1,8 @@
+//! TODO
+
+pub mod shape;
+
+use crate::model::Model;
+
+/// Adds it to the character.
+pub fn add(_model: &mut Model) {}

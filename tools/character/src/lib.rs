@@ -1,0 +1,39 @@
+//! Hikage's own character: an anime heroine made by code, as a VRM 1.0 file that anybody may use (CC0).
+//!
+//! [`file`] gives the file. Each module adds its parts, materials and textures to one [`model::Model`], which [`glb`]
+//! writes. Same bytes each time.
+
+#![allow(clippy::cast_possible_truncation, clippy::cast_precision_loss, clippy::cast_sign_loss)]
+
+pub mod body;
+pub mod clothes;
+pub mod glb;
+pub mod hair;
+pub mod head;
+pub mod mesh;
+pub mod model;
+pub mod picture;
+pub mod props;
+pub mod skeleton;
+mod vrm;
+
+use model::Model;
+use skeleton::Skeleton;
+
+/// The whole character.
+#[must_use]
+pub fn build() -> Model {
+    let mut model = Model { skeleton: Skeleton::humanoid(), ..Model::default() };
+    body::add(&mut model);
+    clothes::add(&mut model);
+    props::add(&mut model);
+    head::add(&mut model);
+    hair::add(&mut model);
+    model
+}
+
+/// Bytes of `hikage.vrm`.
+#[must_use]
+pub fn file() -> Vec<u8> {
+    glb::write(&build())
+}
