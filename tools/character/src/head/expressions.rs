@@ -14,9 +14,9 @@ pub(super) const STATES: &[(&str, State)] = &[
     ("blinkRight", || Face { eyes: [Eye::default(), SHUT], ..Face::default() }),
     ("aa", || mouth(Mouth { width: 0.0132, up: 0.0022, down: 0.0118, corner: 0.0, roundness: 0.62, jaw: 0.0055 })),
     ("ih", || mouth(Mouth { width: 0.0158, up: 0.0016, down: 0.0032, corner: 0.0006, roundness: 0.55, jaw: 0.0014 })),
-    ("ou", || mouth(Mouth { width: 0.0066, up: 0.0022, down: 0.004, corner: -0.0004, roundness: 0.5, jaw: 0.0016 })),
+    ("ou", || mouth(Mouth { width: 0.0064, up: 0.0028, down: 0.0036, corner: -0.0004, roundness: 0.5, jaw: 0.0016 })),
     ("ee", || mouth(Mouth { width: 0.0146, up: 0.002, down: 0.0062, corner: 0.0008, roundness: 0.6, jaw: 0.0024 })),
-    ("oh", || mouth(Mouth { width: 0.0086, up: 0.0032, down: 0.0082, corner: -0.0004, roundness: 0.5, jaw: 0.004 })),
+    ("oh", || mouth(Mouth { width: 0.0084, up: 0.0044, down: 0.0076, corner: -0.0004, roundness: 0.5, jaw: 0.004 })),
     ("happy", || Face {
         eyes: [Eye { shut: 1.0, arch: 1.0, ..Eye::default() }; 2],
         mouth: Mouth { width: 0.0152, up: 0.0008, down: 0.0068, corner: 0.0028, roundness: 0.6, jaw: 0.0022 },
@@ -39,7 +39,7 @@ pub(super) const STATES: &[(&str, State)] = &[
     }),
     ("surprised", || Face {
         eyes: [Eye { upper: [0.0016, 0.0028, 0.0024], lower: -0.0014, iris: -0.2, ..Eye::default() }; 2],
-        mouth: Mouth { width: 0.0074, up: 0.003, down: 0.0064, corner: -0.0004, roundness: 0.5, jaw: 0.0034 },
+        mouth: Mouth { width: 0.0074, up: 0.0036, down: 0.006, corner: -0.0004, roundness: 0.5, jaw: 0.0034 },
         brow: Brow { lift: [0.006, 0.0072, 0.006], frown: 0.0 },
     }),
     ("lookUp", || gaze(0.0, 0.0042)),

@@ -61,7 +61,9 @@ pub(super) fn build(skeleton: &Skeleton) -> Vec<Part> {
     let (edge, plane) = LIMBUS.sin_cos();
     // The sclera is open at the iris and closed at the back, where nobody looks.
     let mut sclera: Vec<[f32; 2]> = (0..=12).map(|i| on_ball(LIMBUS + (PI * 0.62 - LIMBUS) * i as f32 / 12.0)).collect();
-    sclera.insert(0, [0.0, plane - IRIS_BACK * 1.6]);
+    // A well behind the iris.
+    let floor = plane - IRIS_BACK * 2.0;
+    sclera.splice(0..0, [[0.0, floor], [edge * 0.99, floor]]);
     let iris: Vec<[f32; 2]> = (0..=5)
         .map(|i| {
             let t = i as f32 / 5.0;

@@ -55,11 +55,20 @@ fn start() -> Grid {
     (0..ROWS).map(|r| (0..=HALF).map(|c| Vec2::new(at(&columns, c), at(&rows, r))).collect()).collect()
 }
 
+/// Places along the lids at which vertices of the grid stand, 0 at the inner and 1 at the outer corner.
+pub(super) fn lid_columns() -> impl Iterator<Item = f32> {
+    (EYE_FIRST..=EYE_LAST).map(lid_column)
+}
+
+fn lid_column(column: usize) -> f32 {
+    let across = (column - EYE_FIRST) as f32 / (EYE_LAST - EYE_FIRST) as f32;
+    CORNER_SHARE + (1.0 - 2.0 * CORNER_SHARE) * across
+}
+
 /// Point of the lids at a place on the border of the eye's block.
 fn lid_point(row: usize, column: usize) -> Vec2 {
     let eye = Eye::default();
-    let across = (column - EYE_FIRST) as f32 / (EYE_LAST - EYE_FIRST) as f32;
-    let s = CORNER_SHARE + (1.0 - 2.0 * CORNER_SHARE) * across;
+    let s = lid_column(column);
     let down = (row - LID) as f32 / (LID_END - LID) as f32;
     let on = |s: f32, lower: bool| {
         let x = CORNERS[0].x + (CORNERS[1].x - CORNERS[0].x) * s;
@@ -203,7 +212,7 @@ pub(super) fn build(skeleton: &Skeleton) -> [Part; 2] {
                 .map(|c| {
                     let path = |k: usize| point(k - 1, c).distance(point(k, c));
                     let length: f32 = (JAW + 1..=r).map(path).sum();
-                    if r > JAW { length * 0.8 + point(r, c).y - point(JAW, c).y } else { 0.0 }
+                    if r > JAW { length * 0.7 + point(r, c).y - point(JAW, c).y } else { 0.0 }
                 })
                 .collect()
         })

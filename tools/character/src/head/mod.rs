@@ -31,3 +31,18 @@ pub fn add(model: &mut Model) {
     materials::add(model);
     model.expressions.extend(expressions::all());
 }
+
+/// Heights of the lids of her left eye (right for `blinkRight`), by morph: for points along the upper and the lower lid,
+/// height at weight 0 and at weight 1, metres.
+#[must_use]
+pub fn lids() -> Vec<(&'static str, [Vec<[f32; 2]>; 2])> {
+    let rest = state::Eye::default();
+    expressions::STATES
+        .iter()
+        .map(|(name, state)| {
+            let eye = state().eyes[usize::from(*name == "blinkRight")];
+            let lid = |k: usize| face::lid_columns().map(|s| [rest.lids(s)[k], eye.lids(s)[k]]).collect();
+            (*name, [lid(0), lid(1)])
+        })
+        .collect()
+}

@@ -19,7 +19,7 @@ fn sheet(
 ) {
     let first = part.vertices.len() as u32;
     let weights = skeleton.only("head");
-    let place = |i: u32| ((i / columns) as f32 / (rows - 1) as f32, (i % columns) as f32 / (columns - 1) as f32 * 2.0 - 1.0);
+    let place = |i: u32| ((i / columns) as f32 / (rows - 1) as f32, (2.0 * (i % columns) as f32 - (columns - 1) as f32) / (columns - 1) as f32);
     for i in 0..rows * columns {
         let (r, c) = place(i);
         let t = uv[0] + (uv[1] - uv[0]) * Vec2::new((c + 1.0) * 0.5, r);
