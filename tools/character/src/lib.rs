@@ -10,6 +10,7 @@ pub mod clothes;
 pub mod glb;
 pub mod hair;
 pub mod head;
+pub mod loft;
 pub mod mesh;
 pub mod model;
 pub mod picture;
