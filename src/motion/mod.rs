@@ -2,5 +2,7 @@
 
 mod expression;
 mod pose;
+mod stance;
 
 pub use pose::Pose;
+pub use stance::Stance;

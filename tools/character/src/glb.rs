@@ -101,12 +101,8 @@ pub fn write(model: &Model) -> Vec<u8> {
     let texture_index: BTreeMap<&str, usize> = model.textures.iter().enumerate().map(|(i, t)| (t.name, i)).collect();
     let material_index: BTreeMap<&str, usize> = model.materials.iter().enumerate().map(|(i, m)| (m.name, i)).collect();
 
-    let inverse_bind: Vec<[f32; 16]> = model
-        .skeleton
-        .bones
-        .iter()
-        .map(|b| glam::Mat4::from_translation(-b.position).to_cols_array())
-        .collect();
+    let inverse_bind: Vec<[f32; 16]> =
+        model.skeleton.bones.iter().map(|b| glam::Mat4::from_translation(-b.position).to_cols_array()).collect();
     let inverse_bind = binary.floats(&inverse_bind, None);
     let meshes: Vec<Value> = model.parts.iter().map(|part| mesh(&mut binary, part, &material_index)).collect();
 
@@ -133,8 +129,7 @@ pub fn write(model: &Model) -> Vec<u8> {
         .enumerate()
         .map(|(i, bone)| {
             let origin = bone.parent.map_or(Vec3::ZERO, |p| model.skeleton.bones[p].position);
-            let children: Vec<usize> =
-                (0..bones).filter(|c| model.skeleton.bones[*c].parent == Some(i)).collect();
+            let children: Vec<usize> = (0..bones).filter(|c| model.skeleton.bones[*c].parent == Some(i)).collect();
             let mut node = json!({ "name": bone.name, "translation": (bone.position - origin).to_array() });
             if !children.is_empty() {
                 node["children"] = json!(children);
@@ -213,9 +208,7 @@ fn mesh(binary: &mut Binary, part: &Part, materials: &BTreeMap<&str, usize>) -> 
 }
 
 fn material(m: &Material, textures: &BTreeMap<&str, usize>) -> Value {
-    let info = |name: &str| {
-        json!({ "index": textures.get(name).unwrap_or_else(|| panic!("material {}: no texture {name}", m.name)) })
-    };
+    let info = |name: &str| json!({ "index": textures.get(name).unwrap_or_else(|| panic!("material {}: no texture {name}", m.name)) });
     let (mode, depth_write, queue) = match m.alpha {
         Alpha::Opaque => ("OPAQUE", false, 0),
         Alpha::Mask(_) => ("MASK", false, 0),

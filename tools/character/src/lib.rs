@@ -1,9 +1,13 @@
 //! Hikage's own character: an anime heroine made by code, as a VRM 1.0 file that anybody may use (CC0).
 //!
-//! [`file`] gives the file. Each module adds its parts, materials and textures to one [`model::Model`], which [`glb`]
+//! [`file()`] gives the file. Each module adds its parts, materials and textures to one [`model::Model`], which [`glb`]
 //! writes. Same bytes each time.
 
-#![allow(clippy::cast_possible_truncation, clippy::cast_precision_loss, clippy::cast_sign_loss)]
+#![allow(
+    clippy::type_complexity,
+    clippy::needless_range_loop,
+    reason = "tables of measures and grids read best as such"
+)]
 
 pub mod body;
 pub mod clothes;
@@ -14,7 +18,6 @@ pub mod loft;
 pub mod mesh;
 pub mod model;
 pub mod picture;
-pub mod props;
 pub mod skeleton;
 mod vrm;
 
@@ -27,7 +30,6 @@ pub fn build() -> Model {
     let mut model = Model { skeleton: Skeleton::humanoid(), ..Model::default() };
     body::add(&mut model);
     clothes::add(&mut model);
-    props::add(&mut model);
     head::add(&mut model);
     hair::add(&mut model);
     model

@@ -56,10 +56,18 @@ pub fn ring(center: Vec3, half: f32, front: f32, back: f32, columns: usize) -> V
 pub fn turn(i: usize, columns: usize) -> (f32, f32) {
     let i = i % columns;
     let quarter = columns / 4;
-    if columns % 4 == 0 {
+    if columns.is_multiple_of(4) {
         // One quarter is computed; the others repeat it with other signs.
         let (q, k) = (i / quarter, i % quarter);
-        let sine = |k: usize| if k == 0 { 0.0 } else if k == quarter { 1.0 } else { (k as f32 / columns as f32 * TAU).sin() };
+        let sine = |k: usize| {
+            if k == 0 {
+                0.0
+            } else if k == quarter {
+                1.0
+            } else {
+                (k as f32 / columns as f32 * TAU).sin()
+            }
+        };
         let (s, c) = (sine(k), sine(quarter - k));
         return [(s, c), (c, -s), (-s, -c), (-c, s)][q];
     }

@@ -151,7 +151,7 @@ impl Part {
             let normal = (p[1] - p[0]).cross(p[2] - p[0]).normalize_or_zero();
             for k in 0..3 {
                 let (a, b) = (p[(k + 1) % 3] - p[k], p[(k + 2) % 3] - p[k]);
-                *sums.entry(key(p[k])).or_default() += normal * a.angle_between(b).min(3.2).max(0.0);
+                *sums.entry(key(p[k])).or_default() += normal * a.angle_between(b).clamp(0.0, 3.2);
             }
         }
         for v in &mut self.vertices {

@@ -185,7 +185,11 @@ impl Model {
 pub fn srgb(hex: u32) -> [f32; 3] {
     [16, 8, 0].map(|shift| {
         let c = ((hex >> shift) & 0xff) as f32 / 255.0;
-        if c <= 0.04045 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
+        if c <= 0.04045 {
+            c / 12.92
+        } else {
+            ((c + 0.055) / 1.055).powf(2.4)
+        }
     })
 }
 

@@ -5,8 +5,8 @@ use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder as _};
 use rayon::prelude::*;
 use tiny_skia::{
-    BlendMode, Color, FillRule, GradientStop, LinearGradient, Paint, Path, PathBuilder, Pixmap, Point, PremultipliedColorU8,
-    RadialGradient, Shader, SpreadMode, Stroke, Transform,
+    BlendMode, Color, FillRule, GradientStop, LinearGradient, Paint, Path, PathBuilder, Pixmap, Point,
+    PremultipliedColorU8, RadialGradient, Shader, SpreadMode, Stroke, Transform,
 };
 
 /// An RGBA picture of 8 bits, straight alpha, rows from the top.
@@ -124,7 +124,8 @@ impl Canvas {
 
     /// Fills a path with a gradient from `a` to `b`; stops are position, colour, alpha.
     pub fn linear(&mut self, path: &Path, a: Vec2, b: Vec2, stops: &[(f32, u32, f32)]) {
-        let gradient = LinearGradient::new(point(a), point(b), skia_stops(stops), SpreadMode::Pad, Transform::identity());
+        let gradient =
+            LinearGradient::new(point(a), point(b), skia_stops(stops), SpreadMode::Pad, Transform::identity());
         if let Some(shader) = gradient {
             self.draw(path, shader, None, BlendMode::SourceOver);
         }
@@ -133,7 +134,8 @@ impl Canvas {
     /// Fills a path with a gradient round `center`.
     pub fn radial(&mut self, path: &Path, center: Vec2, radius: f32, stops: &[(f32, u32, f32)]) {
         let c = point(center);
-        let gradient = RadialGradient::new(c, 0.0, c, radius, skia_stops(stops), SpreadMode::Pad, Transform::identity());
+        let gradient =
+            RadialGradient::new(c, 0.0, c, radius, skia_stops(stops), SpreadMode::Pad, Transform::identity());
         if let Some(shader) = gradient {
             self.draw(path, shader, None, BlendMode::SourceOver);
         }
@@ -142,7 +144,8 @@ impl Canvas {
     /// A soft round spot, full in the middle.
     pub fn glow(&mut self, center: Vec2, radii: Vec2, hex: u32, alpha: f32) {
         let stops = [(0.0, hex, alpha), (0.35, hex, alpha * 0.72), (0.7, hex, alpha * 0.2), (1.0, hex, 0.0)];
-        let squeeze = Transform::from_row(1.0, 0.0, 0.0, radii.y / radii.x, 0.0, center.y - center.y * radii.y / radii.x);
+        let squeeze =
+            Transform::from_row(1.0, 0.0, 0.0, radii.y / radii.x, 0.0, center.y - center.y * radii.y / radii.x);
         let c = point(center);
         let gradient = RadialGradient::new(c, 0.0, c, radii.x, skia_stops(&stops), SpreadMode::Pad, squeeze);
         if let Some(shader) = gradient {
@@ -163,7 +166,8 @@ impl Canvas {
 /// Where a radius is not positive.
 #[must_use]
 pub fn ellipse(center: Vec2, radii: Vec2) -> Path {
-    let rect = tiny_skia::Rect::from_ltrb(center.x - radii.x, center.y - radii.y, center.x + radii.x, center.y + radii.y);
+    let rect =
+        tiny_skia::Rect::from_ltrb(center.x - radii.x, center.y - radii.y, center.x + radii.x, center.y + radii.y);
     PathBuilder::from_oval(rect.expect("radii are positive")).expect("an ellipse is a path")
 }
 
@@ -193,7 +197,11 @@ pub fn curve(points: &[Vec2], closed: bool) -> Path {
     const STEPS: usize = 12;
     let n = points.len();
     let at = |i: isize| {
-        let i = if closed { i.rem_euclid(n as isize) } else { i.clamp(0, n as isize - 1) };
+        let i = if closed {
+            i.rem_euclid(n as isize)
+        } else {
+            i.clamp(0, n as isize - 1)
+        };
         points[i as usize]
     };
     let mut dense = Vec::new();

@@ -1,7 +1,5 @@
 //! Laws that the meshes of the character keep.
 
-#![allow(clippy::cast_possible_truncation, clippy::cast_precision_loss)]
-
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::LazyLock;
 
@@ -106,7 +104,8 @@ fn the_head_is_closed() {
 }
 
 /// Parts that are the same left and right.
-const SYMMETRIC: &[&str] = &["Face", "Mouth", "EyeWhite", "EyeIris", "EyelashUpper", "EyelashLower", "Brow", "Stockings", "Boots"];
+const SYMMETRIC: &[&str] =
+    &["Face", "Mouth", "EyeWhite", "EyeIris", "EyelashUpper", "EyelashLower", "Brow", "Stockings", "Boots"];
 
 #[test]
 fn symmetric_parts_mirror_exactly() {
@@ -137,8 +136,10 @@ fn the_face_unwraps_symmetrically_and_front_on() {
     }
     // On the front of the face u and v are x and y.
     for v in face.vertices.iter().filter(|v| v.position.z > 0.07 && v.position.y > 1.33 && v.position.y < 1.48) {
-        let expected = [0.5 + v.position.x / hikage_character::head::UV_METRES,
-            (hikage_character::head::UV_TOP - v.position.y) / hikage_character::head::UV_METRES];
+        let expected = [
+            0.5 + v.position.x / hikage_character::head::UV_METRES,
+            (hikage_character::head::UV_TOP - v.position.y) / hikage_character::head::UV_METRES,
+        ];
         assert!(v.uv.distance(expected.into()) < 1e-4, "{}: {} for {expected:?}", v.position, v.uv);
     }
 }

@@ -3,6 +3,7 @@
 use clap::ValueEnum;
 use hikage::Background;
 use hikage::color::Srgb;
+use hikage::motion::Stance;
 use hikage::scene::Framing;
 
 /// Longest side of a picture: the size of textures that every adapter has.
@@ -39,6 +40,14 @@ pub(crate) fn size(text: &str) -> Result<[u32; 2], String> {
     text.split_once(['x', 'X'])
         .and_then(|(w, h)| Some([side(w)?, side(h)?]))
         .ok_or_else(|| format!("expected WIDTHxHEIGHT, each from 1 to {MAX_SIDE}, as 1024x1024"))
+}
+
+/// `--pose`.
+pub(crate) fn stance(text: &str) -> Result<Stance, String> {
+    Stance::from_name(text).ok_or_else(|| {
+        let names: Vec<&str> = Stance::ALL.iter().map(|s| s.name()).collect();
+        format!("expected one of {}", names.join(", "))
+    })
 }
 
 /// Samples a pixel: no other numbers are sure to exist on every adapter.

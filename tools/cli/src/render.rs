@@ -5,6 +5,7 @@ use std::time::Instant;
 
 use clap::ValueEnum;
 use glam::Vec3;
+use hikage::motion::Stance;
 use hikage::picture::{encode_png, write_atomic};
 use hikage::{Background, Channel, GpuMemory, Output, Renderer, View};
 use serde::Serialize;
@@ -22,7 +23,8 @@ const SHOWN_WARNINGS: usize = 5;
 #[derive(clap::Args)]
 #[command(after_help = "\
 Examples:
-  hikage render girl.vrm -o girl.png --view bust --yaw 25
+  hikage render -o heroine.png
+  hikage render girl.vrm -o girl.png --view bust --yaw 25 --pose relaxed
   hikage render girl.vrm -o icon.png --size 256x256 --background none --expression happy,blink=0.3
   hikage render girl.vrm -o again.png --shot shot.json
 
@@ -33,8 +35,8 @@ SHOT.json (every field may be missing; options given here win over it):
 Metres; the character stands at the origin and faces +Z. Colours of light are linear; intensity 1 shows a material's
 lit colour exactly.")]
 pub(crate) struct Args {
-    /// Model: .vrm, .glb or .gltf.
-    model: PathBuf,
+    /// Model: .vrm, .glb or .gltf [default: the built-in character].
+    model: Option<PathBuf>,
     /// Picture to write; its folder must exist.
     #[arg(short, long, value_name = "OUT.png", value_parser = png_path)]
     output: PathBuf,
@@ -59,6 +61,9 @@ pub(crate) struct Args {
     /// Expressions and their weights, 0 to 1.
     #[arg(long, value_name = "NAME=W,...", value_delimiter = ',', value_parser = args::expression)]
     expression: Vec<(String, f32)>,
+    /// Pose of the humanoid [default: rest; relaxed for the built-in character].
+    #[arg(long, value_name = "rest|relaxed|bend", value_parser = args::stance)]
+    pose: Option<Stance>,
     /// File with camera, light and background; see below.
     #[arg(long, value_name = "SHOT.json")]
     shot: Option<PathBuf>,
@@ -167,7 +172,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
 
     let spinner = Spinner::new();
     spinner.step("loading the model");
-    let mut scene = timed(&mut ms.load, || hikage::import::load(&args.model))?;
+    let mut scene = timed(&mut ms.load, || setup::load(args.model.as_deref()))?;
     show_warnings(&scene.warnings);
     let view = view(args, &shot, &scene)?;
 
@@ -178,7 +183,12 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let mut renderer = timed(&mut ms.pipelines, || Renderer::with_output(&gpu, output))?;
     spinner.step("uploading");
     let mut gpu_scene = timed(&mut ms.upload, || renderer.upload_and_empty_images(&mut scene))?;
-    setup::pose(&gpu, &mut gpu_scene, &scene, &args.expression)?;
+    let at_ease = if args.model.is_none() {
+        Stance::Relaxed
+    } else {
+        Stance::Rest
+    };
+    setup::pose(&gpu, &mut gpu_scene, &scene, args.pose.unwrap_or(at_ease), &args.expression)?;
     spinner.step("drawing");
     let picture = timed(&mut ms.first_frame, || renderer.render(&mut gpu_scene, &view))?;
     let png = timed(&mut ms.encode, || encode_png(&picture))?;
@@ -190,7 +200,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         let info = gpu.info();
         ms.total = start.elapsed().as_secs_f64() * 1e3;
         let report = Report {
-            model: args.model.display().to_string(),
+            model: args.model.as_deref().unwrap_or(Path::new(setup::BUILT_IN)).display().to_string(),
             output: args.output.display().to_string(),
             adapter: AdapterReport { name: &info.name, backend: &info.backend, kind: &info.kind, driver: &info.driver },
             options: options_report(args, &view),

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::Read as _;
 use std::path::Path;
 
-use hikage::motion::Pose;
+use hikage::motion::{Pose, Stance};
 use hikage::scene::Scene;
 use hikage::{Gpu, GpuScene};
 
@@ -36,14 +36,30 @@ pub(crate) fn gpu(adapter: Option<&str>) -> Result<Gpu, Failure> {
     Ok(Gpu::headless(adapter)?)
 }
 
-/// Brings the model on the GPU into its rest pose with these expressions.
+/// Loads a model; without a name the built-in character.
+pub(crate) fn load(model: Option<&Path>) -> Result<Scene, Failure> {
+    match model {
+        Some(path) => Ok(hikage::import::load(path)?),
+        None => {
+            let limits = hikage::import::Limits::default();
+            Ok(hikage::import::load_bytes(BUILT_IN, &hikage_character::file(), None, &limits)?)
+        }
+    }
+}
+
+/// Name of the built-in character's file.
+pub(crate) const BUILT_IN: &str = "hikage.vrm";
+
+/// Brings the model on the GPU into a stance with these expressions.
 pub(crate) fn pose(
     gpu: &Gpu,
     gpu_scene: &mut GpuScene,
     scene: &Scene,
+    stance: Stance,
     expressions: &[(String, f32)],
 ) -> Result<(), Failure> {
     let mut pose = Pose::rest(scene);
+    pose.set_stance(scene, stance);
     pose.set_expressions(scene, expressions)?;
     gpu_scene.set_pose(gpu, scene, &pose);
     Ok(())

@@ -6,14 +6,10 @@ use std::time::Instant;
 
 use crate::{Outcome, Stop, cargo, driver};
 
-/// Where models are looked for when none is named.
-const MODELS: &str = "../shared/models";
-
 pub(crate) fn run(args: &[String]) -> Outcome {
     let model = match args {
-        [] => largest_model(Path::new(MODELS))
-            .ok_or_else(|| Stop(1, format!("no .vrm file in {MODELS}; name one: cargo xtask demo MODEL")))?,
-        [model] if !model.starts_with('-') => PathBuf::from(model),
+        [] => None,
+        [model] if !model.starts_with('-') => Some(PathBuf::from(model)),
         _ => return Err(Stop(2, "usage: cargo xtask demo [MODEL]".into())),
     };
     let start = Instant::now();
@@ -22,12 +18,13 @@ pub(crate) fn run(args: &[String]) -> Outcome {
 
     let folder = Path::new("target/demo");
     std::fs::create_dir_all(folder).map_err(|e| Stop(1, format!("{}: {e}", folder.display())))?;
-    let stem = model.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let name = model.as_deref().map_or("the built-in character".into(), Path::to_string_lossy);
+    let stem = model.as_deref().and_then(Path::file_stem).map_or("hikage".into(), |s| s.to_string_lossy());
     let picture = folder.join(format!("{stem}.png"));
 
     let drawing = Instant::now();
     let mut render = Command::new(&hikage);
-    render.arg("render").arg(&model).arg("-o").arg(&picture);
+    render.arg("render").args(&model).arg("-o").arg(&picture);
     render.args(["--size", "1024x1024", "--view", "portrait"]);
     vulkan.apply(&mut render);
     cargo::wait(&mut render)?;
@@ -35,25 +32,12 @@ pub(crate) fn run(args: &[String]) -> Outcome {
 
     let shown = std::fs::canonicalize(&picture).unwrap_or(picture);
     println!("\n{}", shown.display());
-    println!("  shows    {} in portrait, 1024 x 1024, lit from the upper left", model.display());
-    for (name, value) in credits(&hikage, &model) {
+    println!("  shows    {name} in portrait, 1024 x 1024, lit from the upper left");
+    for (name, value) in model.iter().flat_map(|m| credits(&hikage, m)) {
         println!("  {name:<8} {value}");
     }
     println!("  drawn in {:.1} s, {:.1} s with the build", drawing.as_secs_f64(), start.elapsed().as_secs_f64());
     Ok(())
-}
-
-/// The largest `.vrm` file: in a folder of samples, the full characters are larger than the test shapes.
-fn largest_model(folder: &Path) -> Option<PathBuf> {
-    let mut models: Vec<(u64, PathBuf)> = std::fs::read_dir(folder)
-        .ok()?
-        .flatten()
-        .map(|entry| entry.path())
-        .filter(|path| path.extension().is_some_and(|e| e == "vrm"))
-        .filter_map(|path| Some((path.metadata().ok()?.len(), path)))
-        .collect();
-    models.sort();
-    models.pop().map(|(_, path)| path)
 }
 
 /// Title, authors and licence as `hikage inspect` tells them.

@@ -60,10 +60,20 @@ fn palm(part: &mut Part, skeleton: &Skeleton) {
         })
         .collect();
     let hand = skeleton.find("leftHand");
-    let first = grid(part, &rows, true, |r, c| Vec2::new(0.02 + 0.46 * c, 0.52 + 0.4 * r), |p| {
-        // The palm follows the hand; the knuckles a little the fingers.
-        if p.x > 0.57 { blend(&[(hand, 1.0)]) } else { weights::arm(skeleton, p) }
-    });
+    let first = grid(
+        part,
+        &rows,
+        true,
+        |r, c| Vec2::new(0.02 + 0.46 * c, 0.52 + 0.4 * r),
+        |p| {
+            // The palm follows the hand; the knuckles a little the fingers.
+            if p.x > 0.57 {
+                blend(&[(hand, 1.0)])
+            } else {
+                weights::arm(skeleton, p)
+            }
+        },
+    );
     let columns = COLUMNS as u32 + 1;
     part.cap(&row(first, columns, PALM.len() as u32 - 1, false), Vec2::new(0.25, 0.94), skeleton.only("leftHand"));
     part.cap(&row(first, columns, 0, true), Vec2::new(0.25, 0.5), weights::arm(skeleton, rows[0][0]));

@@ -40,7 +40,11 @@ pub(super) fn thigh(skeleton: &Skeleton) -> Part {
     let first = grid(&mut part, &rows, true, |r, c| Vec2::new(c, 0.02 + 0.44 * r), |p| weights::leg(skeleton, p));
     let columns = COLUMNS as u32 + 1;
     part.cap(&row(first, columns, 0, true), Vec2::new(0.5, 0.01), weights::leg(skeleton, rows[0][0]));
-    part.cap(&row(first, columns, rows.len() as u32 - 1, false), Vec2::new(0.5, 0.47), weights::leg(skeleton, rows[9][0]));
+    part.cap(
+        &row(first, columns, rows.len() as u32 - 1, false),
+        Vec2::new(0.5, 0.47),
+        weights::leg(skeleton, rows[9][0]),
+    );
     part
 }
 
@@ -48,8 +52,8 @@ pub(super) fn thigh(skeleton: &Skeleton) -> Part {
 pub(super) fn stocking(skeleton: &Skeleton) -> Part {
     let mut part = Part::new("Stockings", "Stocking");
     let heights = [
-        0.618, STOCKING_TOP, 0.6335, 0.622, 0.6, 0.57, 0.54, 0.515, 0.492, 0.472, 0.452, 0.432, 0.41, 0.38, 0.345, 0.31, 0.28, 0.25,
-        0.22,
+        0.618, STOCKING_TOP, 0.6335, 0.622, 0.6, 0.57, 0.54, 0.515, 0.492, 0.472, 0.452, 0.432, 0.41, 0.38, 0.345,
+        0.31, 0.28, 0.25, 0.22,
     ];
     let rows: Vec<Vec<Vec3>> = heights
         .iter()
@@ -134,8 +138,16 @@ pub(super) fn boot(skeleton: &Skeleton) -> Part {
 fn sole(part: &mut Part, skeleton: &Skeleton) {
     // z, half width, centre x, from heel to toe.
     const OUTLINE: &[[f32; 3]] = &[
-        [-0.074, 0.014, 0.079], [-0.066, 0.0255, 0.079], [-0.045, 0.0335, 0.079], [-0.015, 0.035, 0.0795], [0.02, 0.0365, 0.081],
-        [0.06, 0.0415, 0.084], [0.1, 0.0425, 0.0875], [0.13, 0.0365, 0.0905], [0.148, 0.0255, 0.092], [0.157, 0.012, 0.0928],
+        [-0.074, 0.014, 0.079],
+        [-0.066, 0.0255, 0.079],
+        [-0.045, 0.0335, 0.079],
+        [-0.015, 0.035, 0.0795],
+        [0.02, 0.0365, 0.081],
+        [0.06, 0.0415, 0.084],
+        [0.1, 0.0425, 0.0875],
+        [0.13, 0.0365, 0.0905],
+        [0.148, 0.0255, 0.092],
+        [0.157, 0.012, 0.0928],
     ];
     let outline = |grow: f32| -> Vec<Vec3> {
         let side = |sign: f32| OUTLINE.iter().map(move |[z, half, x]| Vec3::new(x + sign * (half + grow), 0.0, *z));
@@ -144,7 +156,12 @@ fn sole(part: &mut Part, skeleton: &Skeleton) {
     let lift = |p: Vec3, top: bool| {
         // Heel and ball touch the ground, the arch between does not.
         let arch = smoothstep(-0.02, -0.01, p.z) * smoothstep(0.045, 0.03, p.z);
-        p + Vec3::Y * if top { 0.024 } else { 0.0105 * arch + 0.003 * smoothstep(0.12, 0.157, p.z) }
+        p + Vec3::Y
+            * if top {
+                0.024
+            } else {
+                0.0105 * arch + 0.003 * smoothstep(0.12, 0.157, p.z)
+            }
     };
     let rows: Vec<Vec<Vec3>> = [(0.0005, true, 0.0), (0.0025, true, -0.005), (0.0025, false, 0.003), (0.0, false, 0.0)]
         .iter()
@@ -178,7 +195,11 @@ fn frame(part: &mut Part, center: Vec3, right: Vec3, up: Vec3, bone: crate::skel
             // Corners are cut twice, so that they look round.
             let c = center + right * *x + up * *y;
             let (dx, dy) = (right * *x * 0.3, up * *y * 0.3);
-            if x * y > 0.0 { [c - dx, c - dy] } else { [c - dy, c - dx] }
+            if x * y > 0.0 {
+                [c - dx, c - dy]
+            } else {
+                [c - dy, c - dx]
+            }
         })
         .collect();
     let n = corners.len();
@@ -189,7 +210,7 @@ fn frame(part: &mut Part, center: Vec3, right: Vec3, up: Vec3, bone: crate::skel
         })
         .collect();
     rows.push(rows[0].clone());
-    grid(part, &rows, true, |r, c| Vec2::new(r, c), |_| bone);
+    grid(part, &rows, true, Vec2::new, |_| bone);
 }
 
 /// Shorts: they close the body under the skirt.

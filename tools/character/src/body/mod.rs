@@ -24,7 +24,8 @@ pub fn add(model: &mut Model) {
     skin.append(&leg::thigh(skeleton));
     let mut shorts = leg::shorts(skeleton);
     shorts.smooth_normals();
-    let parts = [both(skin), both(leg::stocking(skeleton)), both(leg::boot(skeleton)), both(leg::buckles(skeleton)), shorts];
+    let parts =
+        [both(skin), both(leg::stocking(skeleton)), both(leg::boot(skeleton)), both(leg::buckles(skeleton)), shorts];
     model.parts.extend(parts);
     materials(model);
     colliders(model);
@@ -86,7 +87,13 @@ fn colliders(model: &mut Model) {
     let mut list = Vec::new();
     let mut capsule = |group, bone: &str, from: Vec3, to: Vec3, radius| {
         let origin = skeleton.place(bone);
-        list.push(Collider { group, bone: skeleton.find(bone), offset: from - origin, tail: Some(to - origin), radius });
+        list.push(Collider {
+            group,
+            bone: skeleton.find(bone),
+            offset: from - origin,
+            tail: Some(to - origin),
+            radius,
+        });
     };
     capsule("body", "upperChest", Vec3::new(-0.05, 1.17, -0.01), Vec3::new(0.05, 1.17, -0.01), 0.095);
     capsule("body", "spine", Vec3::new(0.0, 0.96, 0.005), Vec3::new(0.0, 1.07, 0.005), 0.085);

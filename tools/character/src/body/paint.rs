@@ -12,8 +12,18 @@ fn mix(a: Vec3, b: Vec3, t: f32) -> Vec3 {
 pub(super) fn skin() -> Picture {
     let mut c = Canvas::new(1024, 1024, Some(0xfeeae0));
     // The swell over the stocking, and the shade of the skirt.
-    c.linear(&square(0.0, 0.0, 1.0, 0.26), Vec2::new(0.0, 0.1), Vec2::new(0.0, 0.25), &[(0.0, 0xeeb0a6, 0.85), (1.0, 0xf4c4b8, 0.0)]);
-    c.linear(&square(0.0, 0.34, 1.0, 0.47), Vec2::new(0.0, 0.36), Vec2::new(0.0, 0.41), &[(0.0, 0xf3b6aa, 0.0), (1.0, 0xf0a89e, 0.55)]);
+    c.linear(
+        &square(0.0, 0.0, 1.0, 0.26),
+        Vec2::new(0.0, 0.1),
+        Vec2::new(0.0, 0.25),
+        &[(0.0, 0xeeb0a6, 0.85), (1.0, 0xf4c4b8, 0.0)],
+    );
+    c.linear(
+        &square(0.0, 0.34, 1.0, 0.47),
+        Vec2::new(0.0, 0.36),
+        Vec2::new(0.0, 0.41),
+        &[(0.0, 0xf3b6aa, 0.0), (1.0, 0xf0a89e, 0.55)],
+    );
     // Wrist and palm are warmer; the ring starts on top of the hand.
     c.glow(Vec2::new(0.25, 0.8), Vec2::new(0.13, 0.15), 0xf6b7aa, 0.55);
     // Knuckles and finger tips blush.
@@ -23,7 +33,12 @@ pub(super) fn skin() -> Picture {
             c.glow(Vec2::new(x + 0.002, y), Vec2::new(0.028, size), 0xf3a89c, 0.35);
             c.glow(Vec2::new(x + 0.084, y), Vec2::new(0.028, size), 0xf3a89c, 0.35);
         }
-        c.linear(&square(x, 0.82, x + 0.084, 0.95), Vec2::new(0.0, 0.82), Vec2::new(0.0, 0.93), &[(0.0, 0xf4aa9e, 0.0), (1.0, 0xf29c92, 0.6)]);
+        c.linear(
+            &square(x, 0.82, x + 0.084, 0.95),
+            Vec2::new(0.0, 0.82),
+            Vec2::new(0.0, 0.93),
+            &[(0.0, 0xf4aa9e, 0.0), (1.0, 0xf29c92, 0.6)],
+        );
         // Nails lie on top, where the ring begins and ends.
         for edge in [x, x + 0.084] {
             c.fill(&ellipse(Vec2::new(edge, 0.872), Vec2::new(0.0135, 0.034)), 0xffd3cd, 1.0);
@@ -50,7 +65,8 @@ pub(super) fn stocking() -> Picture {
         color = mix(color, dark, 0.5 * fold * smoothstep(0.9, 1.0, uv.y));
         if uv.y < 0.075 {
             color = hem;
-            let lines = smoothstep(0.0035, 0.002, (uv.y - 0.022).abs()) + smoothstep(0.0055, 0.004, (uv.y - 0.048).abs());
+            let lines =
+                smoothstep(0.0035, 0.002, (uv.y - 0.022).abs()) + smoothstep(0.0055, 0.004, (uv.y - 0.048).abs());
             color = mix(color, line, lines);
         }
         [color.x, color.y, color.z, 1.0]
@@ -61,12 +77,24 @@ pub(super) fn stocking() -> Picture {
 pub(super) fn boots() -> Picture {
     let mut c = Canvas::new(1024, 1024, Some(0x6a4b40));
     // Light from above: upper parts warmer, the ankle darker.
-    c.linear(&square(0.0, 0.0, 1.0, 0.84), Vec2::new(0.0, 0.0), Vec2::new(0.0, 0.84), &[(0.0, 0x7a5747, 1.0), (0.42, 0x5d4038, 1.0), (0.62, 0x6f4e41, 1.0), (1.0, 0x59403a, 1.0)]);
+    c.linear(
+        &square(0.0, 0.0, 1.0, 0.84),
+        Vec2::new(0.0, 0.0),
+        Vec2::new(0.0, 0.84),
+        &[(0.0, 0x7a5747, 1.0), (0.42, 0x5d4038, 1.0), (0.62, 0x6f4e41, 1.0), (1.0, 0x59403a, 1.0)],
+    );
     // The turned edge.
     c.fill(&square(0.0, 0.0, 1.0, 0.085), 0x4a3233, 1.0);
     c.fill(&square(0.0, 0.082, 1.0, 0.09), 0x33222a, 1.0);
     // Tongue and laces at the front.
-    c.fill(&polyline(&[Vec2::new(0.452, 0.095), Vec2::new(0.548, 0.095), Vec2::new(0.53, 0.62), Vec2::new(0.47, 0.62)], true), 0x4b3536, 1.0);
+    c.fill(
+        &polyline(
+            &[Vec2::new(0.452, 0.095), Vec2::new(0.548, 0.095), Vec2::new(0.53, 0.62), Vec2::new(0.47, 0.62)],
+            true,
+        ),
+        0x4b3536,
+        1.0,
+    );
     for i in 0..7 {
         let y = 0.125 + 0.068 * i as f32;
         for side in [-1.0f32, 1.0] {
@@ -78,7 +106,11 @@ pub(super) fn boots() -> Picture {
         }
     }
     for side in [-1.0f32, 1.0] {
-        let seam = [Vec2::new(0.5 + side * 0.066, 0.095), Vec2::new(0.5 + side * 0.06, 0.45), Vec2::new(0.5 + side * 0.1, 0.64)];
+        let seam = [
+            Vec2::new(0.5 + side * 0.066, 0.095),
+            Vec2::new(0.5 + side * 0.06, 0.45),
+            Vec2::new(0.5 + side * 0.1, 0.64),
+        ];
         c.stroke(&crate::picture::curve(&seam, false), 0x3a2629, 1.0, 0.004);
         let shine = [Vec2::new(0.5 + side * 0.12, 0.16), Vec2::new(0.5 + side * 0.115, 0.4)];
         c.stroke(&polyline(&shine, false), 0x9a7460, 0.55, 0.014);

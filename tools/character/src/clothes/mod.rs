@@ -1,6 +1,77 @@
-//! TODO
+//! Clothes: blouse, jacket with fur, pleated skirt.
 
-use crate::model::Model;
+mod fur;
+mod jacket;
+mod paint;
+mod skirt;
+mod tuft;
 
-/// Adds it to the character.
-pub fn add(_model: &mut Model) {}
+use crate::mesh::Part;
+use crate::model::{Material, Model, Texture, srgb, srgba};
+
+/// Adds the clothes.
+pub fn add(model: &mut Model) {
+    let mut skirt = skirt::build(model);
+    skirt.smooth_normals();
+    let skeleton = &model.skeleton;
+    let both = |mut left: Part, smooth: bool| {
+        let right = left.mirrored(skeleton);
+        left.append(&right);
+        if smooth {
+            // Over the seam in the middle of the back too.
+            left.smooth_normals();
+        }
+        left
+    };
+    let [jacket, lining] = jacket::left(skeleton);
+    let mut blouse = jacket::blouse(skeleton);
+    blouse.smooth_normals();
+    let mut belt = skirt::belt(skeleton);
+    belt.smooth_normals();
+    let parts = [
+        blouse,
+        both(jacket, true),
+        both(lining, true),
+        fur::collar(skeleton),
+        both(fur::cuff(skeleton), false),
+        skirt,
+        belt,
+    ];
+    model.parts.extend(parts);
+    materials(model);
+}
+
+fn materials(model: &mut Model) {
+    let texture = |name, paint| Texture { name, paint, repeat: false };
+    model.textures.extend([
+        texture("blouse", paint::blouse as fn() -> _),
+        texture("jacket", paint::jacket),
+        texture("fur", paint::fur),
+        texture("skirt", paint::skirt),
+    ]);
+    let cloth = |name, texture, shade, line| Material {
+        name,
+        texture: Some(texture),
+        shade: srgb(shade),
+        shade_texture: Some(texture),
+        outline: 0.001,
+        outline_color: srgb(line),
+        ..Material::default()
+    };
+    model.materials.extend([
+        cloth("Cloth_Blouse", "blouse", 0xc2bde6, 0x4a4674),
+        cloth("Jacket", "jacket", 0x9a88c8, 0x14142c),
+        Material { name: "Jacket_Lining", color: srgba(0xe8a33d), shade: srgb(0xb0603a), ..Material::default() },
+        cloth("Jacket_Fur", "fur", 0xcdbce0, 0x6d5f86),
+        cloth("Jacket_Cuff", "fur", 0xcdbce0, 0x6d5f86),
+        cloth("Skirt", "skirt", 0x9580c4, 0x171228),
+        Material {
+            name: "Cloth_Belt",
+            color: srgba(0x5d4238),
+            shade: srgb(0x33232e),
+            outline: 0.0008,
+            outline_color: srgb(0x21131a),
+            ..Material::default()
+        },
+    ]);
+}

@@ -22,7 +22,11 @@ pub(super) fn build<'a>(skeleton: &Skeleton, chain: impl Fn(&str) -> Option<&'a 
         let lift = 0.0275 + 0.004 * hash(i, 2, 51);
         let half = 0.009 + 0.005 * hash(i, 3, 51);
         let first = part.vertices.len() as u32;
-        let name = if around > 180.0 { "HairBack_Right2" } else { "HairBack_Left2" };
+        let name = if around > 180.0 {
+            "HairBack_Right2"
+        } else {
+            "HairBack_Left2"
+        };
         let strip = (i % 4) as f32 * 0.25;
         for r in 0..ROWS {
             let t = r as f32 / (ROWS - 1) as f32;

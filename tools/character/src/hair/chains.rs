@@ -25,21 +25,42 @@ const CHAINS: &[(&str, bool, &[[f32; 3]], f32, f32)] = &[
     (
         "HairBack_Middle",
         false,
-        &[[0.0, 1.38, -0.118], [0.0, 1.29, -0.138], [0.0, 1.2, -0.148], [0.0, 1.1, -0.15], [0.0, 1.01, -0.155], [0.0, 0.92, -0.16]],
+        &[
+            [0.0, 1.38, -0.118],
+            [0.0, 1.29, -0.138],
+            [0.0, 1.2, -0.148],
+            [0.0, 1.1, -0.15],
+            [0.0, 1.01, -0.155],
+            [0.0, 0.92, -0.16],
+        ],
         0.8,
         0.4,
     ),
     (
         "HairBack_Left1",
         true,
-        &[[0.05, 1.38, -0.108], [0.056, 1.29, -0.13], [0.062, 1.2, -0.142], [0.068, 1.1, -0.145], [0.07, 1.01, -0.15], [0.068, 0.92, -0.155]],
+        &[
+            [0.05, 1.38, -0.108],
+            [0.056, 1.29, -0.13],
+            [0.062, 1.2, -0.142],
+            [0.068, 1.1, -0.145],
+            [0.07, 1.01, -0.15],
+            [0.068, 0.92, -0.155],
+        ],
         0.8,
         0.4,
     ),
     (
         "HairBack_Left2",
         true,
-        &[[0.09, 1.38, -0.07], [0.105, 1.29, -0.095], [0.118, 1.2, -0.115], [0.128, 1.1, -0.122], [0.132, 1.01, -0.128], [0.128, 0.92, -0.135]],
+        &[
+            [0.09, 1.38, -0.07],
+            [0.105, 1.29, -0.095],
+            [0.118, 1.2, -0.115],
+            [0.128, 1.1, -0.122],
+            [0.132, 1.01, -0.128],
+            [0.128, 0.92, -0.135],
+        ],
         0.8,
         0.4,
     ),
@@ -51,7 +72,11 @@ pub(super) fn add(model: &mut Model) -> Vec<(String, Chain)> {
     let mut chains = Vec::new();
     for (name, sided, places, stiffness, drag) in CHAINS {
         for sign in if *sided { &[1.0, -1.0][..] } else { &[1.0] } {
-            let name = if *sign < 0.0 { name.replace("Left", "Right") } else { (*name).to_owned() };
+            let name = if *sign < 0.0 {
+                name.replace("Left", "Right")
+            } else {
+                (*name).to_owned()
+            };
             let mut parent = head;
             let mut joints = Vec::new();
             for (i, [x, y, z]) in places.iter().enumerate() {
@@ -95,10 +120,18 @@ pub(super) fn weights(skeleton: &Skeleton, chain: Option<&Chain>, p: Vec3) -> We
         let (upper, lower) = (joints[i].1.y, joints[i + 1].1.y);
         // Each joint rules the span below it; neighbours share the border.
         let span = (upper - lower) * 0.5;
-        let enter = if i == 0 { 1.0 } else { 1.0 - crate::picture::smoothstep(upper - span, upper + span, p.y) };
+        let enter = if i == 0 {
+            1.0
+        } else {
+            1.0 - crate::picture::smoothstep(upper - span, upper + span, p.y)
+        };
         let next = joints[i + 1].1.y;
         let next_span = joints.get(i + 2).map_or(span, |j| (next - j.1.y) * 0.5);
-        let leave = if i + 1 == movable { 0.0 } else { 1.0 - crate::picture::smoothstep(next - next_span, next + next_span, p.y) };
+        let leave = if i + 1 == movable {
+            0.0
+        } else {
+            1.0 - crate::picture::smoothstep(next - next_span, next + next_span, p.y)
+        };
         list.push((joints[i].0, free * (enter - leave).max(0.0)));
     }
     blend(&list)

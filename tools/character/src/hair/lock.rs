@@ -59,7 +59,11 @@ fn along(guide: &[Vec3], t: f32) -> Vec3 {
 
 /// Away from the head, and below it away from the neck.
 fn outward(p: Vec3) -> Vec3 {
-    let from = if p.y > SKULL_CENTER.y { SKULL_CENTER } else { Vec3::new(0.0, p.y, -0.02) };
+    let from = if p.y > SKULL_CENTER.y {
+        SKULL_CENTER
+    } else {
+        Vec3::new(0.0, p.y, -0.02)
+    };
     (p - from).normalize_or(Vec3::Z)
 }
 
@@ -120,7 +124,11 @@ impl Lock {
                 (w, -sag, 1.0),
                 (0.0, -0.22 * h - 0.35 * sag, 0.5),
             ];
-            let v = if t < band { BAND_V * t / band } else { BAND_V + (1.0 - BAND_V) * (t - band) / (1.0 - band) };
+            let v = if t < band {
+                BAND_V * t / band
+            } else {
+                BAND_V + (1.0 - BAND_V) * (t - band) / (1.0 - band)
+            };
             for (x, y, u) in ring {
                 let q = p + side * x + out * y;
                 part.vertex(q, Vec2::new(u0 + (u1 - u0) * u, v), super::chains::weights(skeleton, chain, q));
@@ -140,7 +148,11 @@ impl Lock {
         // The root is closed too; its middle lies a hair before the first ring, so that v grows from it.
         let start = at_length(0.0);
         let tangent = (at_length(0.02) - start).normalize();
-        let root = part.vertex(start - tangent * 0.001, Vec2::new((u0 + u1) * 0.5, -0.002), super::chains::weights(skeleton, chain, start));
+        let root = part.vertex(
+            start - tangent * 0.001,
+            Vec2::new((u0 + u1) * 0.5, -0.002),
+            super::chains::weights(skeleton, chain, start),
+        );
         part.tangents.push(tangent.extend(1.0));
         for i in 0..RING {
             part.triangles.push([first + (i + 1) % RING, root, first + i]);

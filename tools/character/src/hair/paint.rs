@@ -88,7 +88,8 @@ pub(super) fn card() -> Picture {
     Picture::from_fn(512, 512, |uv| {
         let across = (uv.x * 4.0).fract();
         let lines = noise(Vec2::new(uv.x * 72.0, uv.y * 2.0), [72, 64], 61);
-        let ends = smoothstep(0.0, 0.2, uv.y) * smoothstep(1.0, 0.45, uv.y + 0.25 * noise(Vec2::new(uv.x * 72.0, 0.5), [72, 4], 62));
+        let ends = smoothstep(0.0, 0.2, uv.y)
+            * smoothstep(1.0, 0.45, uv.y + 0.25 * noise(Vec2::new(uv.x * 72.0, 0.5), [72, 4], 62));
         let sides = smoothstep(0.0, 0.15, across) * smoothstep(1.0, 0.85, across);
         let alpha = smoothstep(0.66, 0.8, lines) * ends * sides;
         let color = mix(light, dark, noise(Vec2::new(uv.x * 40.0, 1.0), [40, 4], 63));

@@ -66,7 +66,13 @@ pub(super) fn front() -> Vec<Placed> {
         let depth = 0.1005 - 7.2 * x * x - if layer == 0 { 0.0 } else { 0.0035 };
         let tip = Vec3::new(x, y, depth);
         let low = brow.lerp(tip, 0.55) + Vec3::new(-swing * 0.9, 0.0, 0.0035);
-        let chain = if x.abs() < 0.022 { "HairFront_Middle" } else if x > 0.0 { "HairFront_Left" } else { "HairFront_Right" };
+        let chain = if x.abs() < 0.022 {
+            "HairFront_Middle"
+        } else if x > 0.0 {
+            "HairFront_Left"
+        } else {
+            "HairFront_Right"
+        };
         locks.push((
             Lock {
                 guide: vec![start, over, brow, low, tip],
@@ -112,13 +118,55 @@ pub(super) fn side() -> Vec<Placed> {
         let seed = if sign > 0.0 { 3 } else { 4 };
         // Root angle; places at cheek, jaw, collar and tip; half width; thickness.
         let list: &[(f32, [[f32; 3]; 4], f32, f32, u32)] = &[
-            (56.0, [[0.0885, 1.42, 0.05], [0.0905, 1.345, 0.062], [0.092, 1.25, 0.088], [0.078, 1.098, 0.128]], 0.0165, 0.0095, 0),
-            (70.0, [[0.0965, 1.42, 0.024], [0.101, 1.345, 0.036], [0.104, 1.255, 0.066], [0.1, 1.135, 0.108]], 0.0165, 0.009, 1),
-            (47.0, [[0.0795, 1.42, 0.0675], [0.0815, 1.37, 0.0705], [0.0785, 1.33, 0.07], [0.068, 1.292, 0.0655]], 0.0095, 0.006, 2),
-            (63.0, [[0.0935, 1.42, 0.038], [0.0965, 1.35, 0.05], [0.099, 1.27, 0.078], [0.096, 1.192, 0.1]], 0.0085, 0.0055, 2),
-            (84.0, [[0.1, 1.42, -0.004], [0.1055, 1.345, 0.004], [0.112, 1.27, 0.022], [0.122, 1.2, 0.05]], 0.0185, 0.009, 0),
-            (100.0, [[0.0985, 1.42, -0.034], [0.104, 1.35, -0.036], [0.112, 1.29, -0.038], [0.122, 1.235, -0.04]], 0.0195, 0.009, 1),
-            (52.0, [[0.084, 1.42, 0.06], [0.088, 1.345, 0.07], [0.09, 1.27, 0.088], [0.082, 1.17, 0.118]], 0.0052, 0.004, 1),
+            (
+                56.0,
+                [[0.0885, 1.42, 0.05], [0.0905, 1.345, 0.062], [0.092, 1.25, 0.088], [0.078, 1.098, 0.128]],
+                0.0165,
+                0.0095,
+                0,
+            ),
+            (
+                70.0,
+                [[0.0965, 1.42, 0.024], [0.101, 1.345, 0.036], [0.104, 1.255, 0.066], [0.1, 1.135, 0.108]],
+                0.0165,
+                0.009,
+                1,
+            ),
+            (
+                47.0,
+                [[0.0795, 1.42, 0.0675], [0.0815, 1.37, 0.0705], [0.0785, 1.33, 0.07], [0.068, 1.292, 0.0655]],
+                0.0095,
+                0.006,
+                2,
+            ),
+            (
+                63.0,
+                [[0.0935, 1.42, 0.038], [0.0965, 1.35, 0.05], [0.099, 1.27, 0.078], [0.096, 1.192, 0.1]],
+                0.0085,
+                0.0055,
+                2,
+            ),
+            (
+                84.0,
+                [[0.1, 1.42, -0.004], [0.1055, 1.345, 0.004], [0.112, 1.27, 0.022], [0.122, 1.2, 0.05]],
+                0.0185,
+                0.009,
+                0,
+            ),
+            (
+                100.0,
+                [[0.0985, 1.42, -0.034], [0.104, 1.35, -0.036], [0.112, 1.29, -0.038], [0.122, 1.235, -0.04]],
+                0.0195,
+                0.009,
+                1,
+            ),
+            (
+                52.0,
+                [[0.084, 1.42, 0.06], [0.088, 1.345, 0.07], [0.09, 1.27, 0.088], [0.082, 1.17, 0.118]],
+                0.0052,
+                0.004,
+                1,
+            ),
         ];
         for (i, (root, places, width, thickness, strip)) in list.iter().enumerate() {
             let n = i as u32;
@@ -134,7 +182,15 @@ pub(super) fn side() -> Vec<Placed> {
                 guide.push(Vec3::new((x + bend) * sign, *y + 0.006 * vary(n * 7 + k as u32, seed), *z));
             }
             locks.push((
-                Lock { guide, width: *width, thickness: *thickness, root: 0.7, belly: 0.45, twist: 0.25 * sign * vary(n, 9), strip: *strip },
+                Lock {
+                    guide,
+                    width: *width,
+                    thickness: *thickness,
+                    root: 0.7,
+                    belly: 0.45,
+                    twist: 0.25 * sign * vary(n, 9),
+                    strip: *strip,
+                },
                 chain,
             ));
         }
@@ -190,11 +246,7 @@ pub(super) fn back() -> Vec<Placed> {
             let tip_y = tips[0] + (tips[1] - tips[0]) * (0.35 * place.abs() + 0.65 * hash(id, 3, 6));
             let around = 180.0 - across * 88.0;
             let start = on_skull(around, 8.0 + 4.0 * hash(id, 1, 2), 0.009 + lift * 0.5);
-            let mut guide = vec![
-                start,
-                on_skull(around, 34.0, 0.0125 + lift),
-                on_skull(around, 60.0, 0.0125 + lift),
-            ];
+            let mut guide = vec![start, on_skull(around, 34.0, 0.0125 + lift), on_skull(around, 60.0, 0.0125 + lift)];
             let top = 1.425;
             let steps = (((top - tip_y) / 0.075).round() as u32).max(3);
             let phase = hash(id, 9, 4) * 6.3;
@@ -237,10 +289,27 @@ pub(super) fn back() -> Vec<Placed> {
         let mut guide = vec![on_skull(around, 20.0, 0.024), on_skull(around, 50.0, 0.03)];
         for k in 0..=4 {
             let t = k as f32 / 4.0;
-            guide.push(hang(across * (1.0 + 0.1 * t), 1.42 + (tip_y - 1.42) * t, 0.017 + 0.02 * t * t * hash(i, 2, 33)));
+            guide.push(hang(
+                across * (1.0 + 0.1 * t),
+                1.42 + (tip_y - 1.42) * t,
+                0.017 + 0.02 * t * t * hash(i, 2, 33),
+            ));
         }
-        let chain = if across > 0.66 { "HairBack_Left2" } else if across > 0.2 { "HairBack_Left1" } else if across > -0.2 { "HairBack_Middle" } else if across > -0.66 { "HairBack_Right1" } else { "HairBack_Right2" };
-        locks.push((Lock { guide, width: 0.0048, thickness: 0.0035, root: 0.6, belly: 0.5, twist: 0.2, strip: i % 3 }, chain));
+        let chain = if across > 0.66 {
+            "HairBack_Left2"
+        } else if across > 0.2 {
+            "HairBack_Left1"
+        } else if across > -0.2 {
+            "HairBack_Middle"
+        } else if across > -0.66 {
+            "HairBack_Right1"
+        } else {
+            "HairBack_Right2"
+        };
+        locks.push((
+            Lock { guide, width: 0.0048, thickness: 0.0035, root: 0.6, belly: 0.5, twist: 0.2, strip: i % 3 },
+            chain,
+        ));
     }
     locks
 }

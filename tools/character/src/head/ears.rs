@@ -11,8 +11,16 @@ use crate::skeleton::Skeleton;
 /// Steps round the ear and rings from the head over the rim into the hollow.
 const STEPS: u32 = 20;
 /// Distance from the middle as a share of the outline, and height over the side of the head, metres.
-const RINGS: &[[f32; 2]] =
-    &[[0.62, -0.012], [0.86, 0.0], [1.0, 0.0075], [0.97, 0.0122], [0.86, 0.0128], [0.74, 0.0102], [0.5, 0.0084], [0.24, 0.0078]];
+const RINGS: &[[f32; 2]] = &[
+    [0.62, -0.012],
+    [0.86, 0.0],
+    [1.0, 0.0075],
+    [0.97, 0.0122],
+    [0.86, 0.0128],
+    [0.74, 0.0102],
+    [0.5, 0.0084],
+    [0.24, 0.0078],
+];
 
 /// The left ear.
 fn left(skeleton: &Skeleton) -> Part {

@@ -28,7 +28,8 @@ pub(super) const STATES: &[(&str, State)] = &[
         brow: Brow { lift: [-0.0062, -0.0044, 0.0026], frown: 0.0026 },
     }),
     ("sad", || Face {
-        eyes: [Eye { upper: [0.0, -0.0036, -0.0056], lower: 0.0006, gaze: Vec2::new(0.0, -0.0012), ..Eye::default() }; 2],
+        eyes: [Eye { upper: [0.0, -0.0036, -0.0056], lower: 0.0006, gaze: Vec2::new(0.0, -0.0012), ..Eye::default() };
+            2],
         mouth: Mouth { width: 0.0112, up: 0.0002, down: 0.0006, corner: -0.0024, ..Mouth::default() },
         brow: Brow { lift: [0.0044, -0.0002, -0.0042], frown: 0.0012 },
     }),
@@ -51,8 +52,7 @@ pub(super) const STATES: &[(&str, State)] = &[
     ("lookRight", || gaze(-0.0066, 0.0)),
 ];
 
-const SHUT: Eye =
-    Eye { shut: 1.0, arch: 0.0, upper: [0.0; 3], lower: 0.0, gaze: Vec2::ZERO, iris: 0.0 };
+const SHUT: Eye = Eye { shut: 1.0, arch: 0.0, upper: [0.0; 3], lower: 0.0, gaze: Vec2::ZERO, iris: 0.0 };
 
 fn mouth(mouth: Mouth) -> Face {
     debug_assert!(mouth.width < 2.0 * MOUTH_WIDTH, "lips would leave the face");
@@ -65,7 +65,8 @@ fn gaze(left: f32, up: f32) -> Face {
 
 /// The expressions of VRM 1.0 and our own.
 pub(super) fn all() -> Vec<Expression> {
-    let plain = |name: &'static str| Expression { name, preset: true, morphs: vec![(name, 1.0)], ..Expression::default() };
+    let plain =
+        |name: &'static str| Expression { name, preset: true, morphs: vec![(name, 1.0)], ..Expression::default() };
     let mut list = vec![Expression {
         name: "blink",
         preset: true,
@@ -77,11 +78,6 @@ pub(super) fn all() -> Vec<Expression> {
         other => plain(other),
     }));
     list.push(Expression { name: "neutral", preset: true, ..Expression::default() });
-    list.push(Expression {
-        name: "eyeballs",
-        preset: false,
-        morphs: vec![("eyeballs", 1.0)],
-        ..Expression::default()
-    });
+    list.push(Expression { name: "eyeballs", preset: false, morphs: vec![("eyeballs", 1.0)], ..Expression::default() });
     list
 }

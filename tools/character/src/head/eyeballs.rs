@@ -60,7 +60,8 @@ pub(super) fn build(skeleton: &Skeleton) -> Vec<Part> {
     let on_ball = |angle: f32| [angle.sin(), angle.cos()];
     let (edge, plane) = LIMBUS.sin_cos();
     // The sclera is open at the iris and closed at the back, where nobody looks.
-    let mut sclera: Vec<[f32; 2]> = (0..=12).map(|i| on_ball(LIMBUS + (PI * 0.62 - LIMBUS) * i as f32 / 12.0)).collect();
+    let mut sclera: Vec<[f32; 2]> =
+        (0..=12).map(|i| on_ball(LIMBUS + (PI * 0.62 - LIMBUS) * i as f32 / 12.0)).collect();
     // A well behind the iris.
     let floor = plane - IRIS_BACK * 2.0;
     sclera.splice(0..0, [[0.0, floor], [edge * 0.99, floor]]);

@@ -131,13 +131,18 @@ pub(super) fn build(skeleton: &Skeleton) -> Vec<Part> {
 fn sclera(sheet: &mut Sheet<'_>) {
     // Follows the open lids and goes on a little behind them.
     let eye = Eye::default();
-    sheet.grid(9, 15, |r, c| Vec2::new(c, r), |_, r, c| {
-        let s = -0.04 + 1.08 * c;
-        let [upper, lower] = eye.lids(s);
-        let x = CORNERS[0].x + (CORNERS[1].x - CORNERS[0].x) * s;
-        let (top, bottom) = (upper + 0.0022, lower - 0.0022);
-        layer(x, top + (bottom - top) * r, SCLERA)
-    });
+    sheet.grid(
+        9,
+        15,
+        |r, c| Vec2::new(c, r),
+        |_, r, c| {
+            let s = -0.04 + 1.08 * c;
+            let [upper, lower] = eye.lids(s);
+            let x = CORNERS[0].x + (CORNERS[1].x - CORNERS[0].x) * s;
+            let (top, bottom) = (upper + 0.0022, lower - 0.0022);
+            layer(x, top + (bottom - top) * r, SCLERA)
+        },
+    );
 }
 
 /// Middle of the iris of the left eye.
@@ -249,22 +254,29 @@ fn upper_lash(sheet: &mut Sheet<'_>) {
         let tip = CORNERS[1] + WING + Vec2::new(-0.0008, -0.0034) * eye.shut * (1.0 - eye.arch);
         // Both edges run to the tip of the wing; the lower one hollow, the upper one full.
         let low = low.lerp(tip, beyond) + Vec2::new(0.0, 0.0011) * (beyond * (1.0 - beyond)) * 4.0;
-        let high = high.lerp(tip + Vec2::new(0.0002, 0.0002), beyond) + Vec2::new(0.0004, 0.0006) * (beyond * (1.0 - beyond)) * 4.0;
+        let high = high.lerp(tip + Vec2::new(0.0002, 0.0002), beyond)
+            + Vec2::new(0.0004, 0.0006) * (beyond * (1.0 - beyond)) * 4.0;
         before(face, low + (high - low) * (1.0 - r), BEFORE + 0.0006 * (1.0 - r))
     });
     // Spikes at the outer corner.
-    for (at, length, lean, wide) in [(0.93, 0.0058, 0.5f32, 0.13f32)] {
-        sheet.grid(4, 3, |r, c| Vec2::new(0.5 + 0.1 * c, r * 0.5), |face, r, c| {
-            let eye = &face.eyes[0];
-            let (t, shut) = (1.0 - r, eye.shut * (1.0 - 0.8 * eye.arch));
-            let s = at + wide * (c - 0.5) * (1.0 - 0.94 * t);
-            let up = lash_up(s);
-            let root = lid(eye, s.min(1.0), false) + up * lash_width(s) * 0.55 * (1.0 - 0.75 * shut);
-            let direction = Vec2::from_angle(lean - 1.3 * lean * shut - 0.3 * shut);
-            // Swung upwards.
-            let p = root + direction * length * t + direction.perp() * length * 0.28 * t * t;
-            before(face, p, BEFORE + 0.0004 + 0.001 * t)
-        });
+    {
+        let (at, length, lean, wide) = (0.93, 0.0058, 0.5f32, 0.13f32);
+        sheet.grid(
+            4,
+            3,
+            |r, c| Vec2::new(0.5 + 0.1 * c, r * 0.5),
+            |face, r, c| {
+                let eye = &face.eyes[0];
+                let (t, shut) = (1.0 - r, eye.shut * (1.0 - 0.8 * eye.arch));
+                let s = at + wide * (c - 0.5) * (1.0 - 0.94 * t);
+                let up = lash_up(s);
+                let root = lid(eye, s.min(1.0), false) + up * lash_width(s) * 0.55 * (1.0 - 0.75 * shut);
+                let direction = Vec2::from_angle(lean - 1.3 * lean * shut - 0.3 * shut);
+                // Swung upwards.
+                let p = root + direction * length * t + direction.perp() * length * 0.28 * t * t;
+                before(face, p, BEFORE + 0.0004 + 0.001 * t)
+            },
+        );
     }
     // The crease above the lid.
     sheet.grid(3, 15, uv, |face, r, c| {
@@ -290,12 +302,17 @@ fn lower_lash(sheet: &mut Sheet<'_>) {
         before(face, base - down * 0.0003 + down * width * r, BEFORE)
     });
     for (at, length, lean) in [(0.9, 0.0024, -0.72f32), (0.78, 0.002, -0.95)] {
-        sheet.grid(3, 3, |r, c| Vec2::new(0.5 + 0.1 * c, 0.5 + r * 0.5), |face, r, c| {
-            let eye = &face.eyes[0];
-            let s = (at + 0.05 * (c - 0.5) * (1.0 - 0.9 * r)).min(1.0);
-            let p = lid(eye, s, true) + Vec2::from_angle(lean) * length * r * (1.0 - 0.6 * eye.shut);
-            before(face, p, BEFORE + 0.0004)
-        });
+        sheet.grid(
+            3,
+            3,
+            |r, c| Vec2::new(0.5 + 0.1 * c, 0.5 + r * 0.5),
+            |face, r, c| {
+                let eye = &face.eyes[0];
+                let s = (at + 0.05 * (c - 0.5) * (1.0 - 0.9 * r)).min(1.0);
+                let p = lid(eye, s, true) + Vec2::from_angle(lean) * length * r * (1.0 - 0.6 * eye.shut);
+                before(face, p, BEFORE + 0.0004)
+            },
+        );
     }
 }
 

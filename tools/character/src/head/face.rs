@@ -127,8 +127,16 @@ fn relaxed() -> Grid {
                     continue;
                 }
                 let mirror = |p: Vec2, axis: f32| Vec2::new(2.0 * axis - p.x, p.y);
-                let left = if c == 0 { mirror(grid[r][1], 0.0) } else { grid[r][c - 1] };
-                let right = if c == HALF { mirror(grid[r][HALF - 1], 8.0) } else { grid[r][c + 1] };
+                let left = if c == 0 {
+                    mirror(grid[r][1], 0.0)
+                } else {
+                    grid[r][c - 1]
+                };
+                let right = if c == HALF {
+                    mirror(grid[r][HALF - 1], 8.0)
+                } else {
+                    grid[r][c + 1]
+                };
                 let mean = (left + right + grid[r - 1][c] + grid[r + 1][c]) * 0.25;
                 let here = grid[r][c];
                 grid[r][c] = here + (mean - here) * 1.6;
@@ -174,7 +182,11 @@ fn moved(p: Vec3, row: usize, face: &Face) -> Vec3 {
     // Under the jaw the skin does not slide over the front of the face; the pull fades towards the neck.
     let row = row as f32 - JAW as f32;
     let slide = smoothstep(0.0, -3.0, row);
-    let rise = if slide > 0.0 { front(to.x, to.y).z - front(p.x, p.y).z } else { 0.0 };
+    let rise = if slide > 0.0 {
+        front(to.x, to.y).z - front(p.x, p.y).z
+    } else {
+        0.0
+    };
     let pull = (to - p.truncate()) * smoothstep(6.0, 0.0, row);
     Vec3::new(p.x + pull.x, p.y + pull.y, p.z + rise * slide + lid_bulge(to.x, to.y, face))
 }
@@ -212,7 +224,11 @@ pub(super) fn build(skeleton: &Skeleton) -> [Part; 2] {
                 .map(|c| {
                     let path = |k: usize| point(k - 1, c).distance(point(k, c));
                     let length: f32 = (JAW + 1..=r).map(path).sum();
-                    if r > JAW { length * 0.7 + point(r, c).y - point(JAW, c).y } else { 0.0 }
+                    if r > JAW {
+                        length * 0.66 + point(r, c).y - point(JAW, c).y
+                    } else {
+                        0.0
+                    }
                 })
                 .collect()
         })
@@ -256,7 +272,8 @@ pub(super) fn build(skeleton: &Skeleton) -> [Part; 2] {
     close_ends(&mut skin, skeleton, columns);
     let on_face = skin.vertices.len();
 
-    let rows: Vec<(usize, usize)> = (0..on_face.min(ROWS * columns)).map(|i| (i / columns, place(i % columns).0)).collect();
+    let rows: Vec<(usize, usize)> =
+        (0..on_face.min(ROWS * columns)).map(|i| (i / columns, place(i % columns).0)).collect();
     skin.smooth_normals();
     edit_normals(&mut skin, &rows);
     let rest: Vec<Vec3> = skin.vertices.iter().map(|v| v.position).collect();
@@ -312,8 +329,22 @@ fn socket(skeleton: &Skeleton, grid: &Grid, point: &impl Fn(usize, usize) -> Vec
                 p
             } else if second {
                 // Behind the border, a little outwards, so that the lids hide the wall.
-                let (br, bc) = (if r == 1 { 0 } else if r == rows - 2 { rows - 1 } else { r },
-                    if c == 1 { 0 } else if c == columns - 2 { columns - 1 } else { c });
+                let (br, bc) = (
+                    if r == 1 {
+                        0
+                    } else if r == rows - 2 {
+                        rows - 1
+                    } else {
+                        r
+                    },
+                    if c == 1 {
+                        0
+                    } else if c == columns - 2 {
+                        columns - 1
+                    } else {
+                        c
+                    },
+                );
                 let b = point(LID + br, EYE_FIRST + bc);
                 let out = (b.truncate() - middle) * 0.06;
                 Vec3::new(b.x + out.x, b.y + out.y, b.z - 0.0075)
@@ -328,7 +359,11 @@ fn socket(skeleton: &Skeleton, grid: &Grid, point: &impl Fn(usize, usize) -> Vec
         }
     }
     let quads = |part: &mut Part, a: u32, b: u32, c: u32, d: u32| {
-        if sign > 0.0 { part.quad(a, b, c, d) } else { part.quad(d, c, b, a) }
+        if sign > 0.0 {
+            part.quad(a, b, c, d)
+        } else {
+            part.quad(d, c, b, a)
+        }
     };
     for r in 0..rows as u32 - 1 {
         for c in 0..columns as u32 - 1 {
@@ -356,8 +391,11 @@ fn pocket(skeleton: &Skeleton, point: &impl Fn(usize, usize) -> Vec3) -> Part {
     let mut anchors = Vec::new();
     for r in 0..rows {
         for c in 0..columns {
-            let (k, sign) =
-                if c < MOUTH_COLUMNS { (MOUTH_COLUMNS - c, -1.0) } else { (c - MOUTH_COLUMNS, 1.0) };
+            let (k, sign) = if c < MOUTH_COLUMNS {
+                (MOUTH_COLUMNS - c, -1.0)
+            } else {
+                (c - MOUTH_COLUMNS, 1.0)
+            };
             let skin = |row: usize| {
                 let p = point(row, k);
                 Vec3::new(p.x * sign, p.y, p.z)

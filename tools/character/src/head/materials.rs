@@ -60,12 +60,12 @@ pub(super) fn add(model: &mut Model) {
         Material {
             name: "EyelashShadow",
             texture: Some("eyelash_shadow"),
-            shade: [1.0; 3],
+            shade: [0.92, 0.9, 0.95],
             shade_texture: Some("eyelash_shadow"),
             alpha: Alpha::Blend { depth_write: false, queue: -9 },
             ..Material::default()
         },
-        Material { name: "EyeHighlight", shade: [1.0; 3], shift: 1.0, ..Material::default() },
+        Material { name: "EyeHighlight", shade: [0.92, 0.9, 0.95], shift: 1.0, ..Material::default() },
         Material {
             name: "Eyelash",
             color: srgba(0x35222e),
@@ -74,12 +74,7 @@ pub(super) fn add(model: &mut Model) {
             ..Material::default()
         },
         Material { name: "Brow", color: srgba(0x8d86ac), shade: srgb(0x74688f), ..Material::default() },
-        Material {
-            name: "EyeballSclera",
-            color: srgba(0xfaf5f3),
-            shade: srgb(0xdccbdc),
-            ..Material::default()
-        },
+        Material { name: "EyeballSclera", color: srgba(0xfaf5f3), shade: srgb(0xdccbdc), ..Material::default() },
         Material {
             name: "EyeballIris",
             texture: Some("eye_iris"),
@@ -91,7 +86,7 @@ pub(super) fn add(model: &mut Model) {
         Material {
             name: "EyeballCornea",
             color: [1.0, 1.0, 1.0, 0.08],
-            shade: [1.0; 3],
+            shade: [0.92, 0.9, 0.95],
             alpha: Alpha::Blend { depth_write: false, queue: -8 },
             ..Material::default()
         },

@@ -19,7 +19,12 @@ fn sheet(
 ) {
     let first = part.vertices.len() as u32;
     let weights = skeleton.only("head");
-    let place = |i: u32| ((i / columns) as f32 / (rows - 1) as f32, (2.0 * (i % columns) as f32 - (columns - 1) as f32) / (columns - 1) as f32);
+    let place = |i: u32| {
+        (
+            (i / columns) as f32 / (rows - 1) as f32,
+            (2.0 * (i % columns) as f32 - (columns - 1) as f32) / (columns - 1) as f32,
+        )
+    };
     for i in 0..rows * columns {
         let (r, c) = place(i);
         let t = uv[0] + (uv[1] - uv[0]) * Vec2::new((c + 1.0) * 0.5, r);
@@ -45,7 +50,8 @@ pub(super) fn build(skeleton: &Skeleton) -> Part {
     let arc = |c: f32, half: f32, depth: f32| Vec3::new(half * c, 0.0, lip_z - depth - 0.0085 * c * c);
     // At rest the teeth end above the line of the lips.
     sheet(&mut part, skeleton, 3, 9, [Vec2::new(0.02, 0.55), Vec2::new(0.98, 0.72)], |face, r, c| {
-        let y = MOUTH_Y + 0.006 - 0.0052 * r + face.mouth.up * 0.5 - (face.mouth.down * 0.4).min(0.0022) + 0.0008 * c * c;
+        let y =
+            MOUTH_Y + 0.006 - 0.0052 * r + face.mouth.up * 0.5 - (face.mouth.down * 0.4).min(0.0022) + 0.0008 * c * c;
         arc(c, 0.0125, 0.0052).with_y(y)
     });
     sheet(&mut part, skeleton, 5, 7, [Vec2::new(0.05, 0.78), Vec2::new(0.95, 0.98)], |face, r, c| {

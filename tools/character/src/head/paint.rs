@@ -2,7 +2,7 @@
 
 use glam::{Vec2, Vec3};
 
-use super::state::{Eye, Mouth, CORNERS, MOUTH_Y};
+use super::state::{CORNERS, Eye, MOUTH_Y, Mouth};
 use super::{UV_METRES, UV_TOP};
 use crate::picture::{Canvas, Picture, curve, ellipse, hash, noise, polyline, rgb, smoothstep};
 
@@ -162,7 +162,8 @@ pub(super) fn iris() -> Picture {
         let p = Vec2::new(d.x / 0.34, (d.y + 0.02) / 0.4).length();
         color = mix(color, dark, 0.75 * smoothstep(1.35, 1.0, p));
         color = mix(color, pupil, smoothstep(1.0, 0.9, p));
-        color = mix(color, rgb(0x8a3d22), 0.55 * smoothstep(0.75, 0.1, Vec2::new(d.x / 0.26, (d.y - 0.2) / 0.18).length()));
+        color =
+            mix(color, rgb(0x8a3d22), 0.55 * smoothstep(0.75, 0.1, Vec2::new(d.x / 0.26, (d.y - 0.2) / 0.18).length()));
         // Shade of the lid.
         color = mix(color, rim, 0.72 * smoothstep(0.32, 0.0, v));
         color = mix(color, rim, smoothstep(0.86, 0.95, r));
@@ -190,8 +191,7 @@ pub(super) fn lash_shadow() -> Picture {
 
 /// Pocket of the mouth (upper half), teeth, tongue.
 pub(super) fn mouth() -> Picture {
-    let [deep, flesh, teeth, gap, tongue, tip] =
-        [0x6e2233, 0xb9505a, 0xfffaf6, 0xe6cfd2, 0xe27f86, 0xf2a09c].map(rgb);
+    let [deep, flesh, teeth, gap, tongue, tip] = [0x6e2233, 0xb9505a, 0xfffaf6, 0xe6cfd2, 0xe27f86, 0xf2a09c].map(rgb);
     Picture::from_fn(256, 256, |uv| {
         let color = if uv.y < 0.52 {
             let t = (uv.y * 2.0 - 0.5).abs() * 2.0;

@@ -157,9 +157,7 @@ static NET: LazyLock<Vec<[Vec3; COLUMNS]>> = LazyLock::new(|| {
 
 /// Cubic Hermite between `b` and `c` with slopes from the neighbours; `h` are the lengths of the three spans.
 fn hermite(p: [Vec3; 4], h: [f32; 3], t: f32) -> Vec3 {
-    let slope = |a: Vec3, b: Vec3, c: Vec3, h0: f32, h1: f32| {
-        ((b - a) / h0 * h1 + (c - b) / h1 * h0) / (h0 + h1)
-    };
+    let slope = |a: Vec3, b: Vec3, c: Vec3, h0: f32, h1: f32| ((b - a) / h0 * h1 + (c - b) / h1 * h0) / (h0 + h1);
     let (m1, m2) = (slope(p[0], p[1], p[2], h[0], h[1]), slope(p[1], p[2], p[3], h[1], h[2]));
     let (t2, t3) = (t * t, t * t * t);
     (2.0 * t3 - 3.0 * t2 + 1.0) * p[1]
@@ -172,7 +170,13 @@ fn across(row: &[Vec3; COLUMNS], column: f32) -> Vec3 {
     let last = COLUMNS as isize - 1;
     let i = (column.floor() as isize).clamp(0, last - 1);
     let at = |k: isize| {
-        let mirror = if k < 0 { -k } else if k > last { 2 * last - k } else { k };
+        let mirror = if k < 0 {
+            -k
+        } else if k > last {
+            2 * last - k
+        } else {
+            k
+        };
         let p = row[mirror as usize];
         if mirror == k { p } else { Vec3::new(-p.x, p.y, p.z) }
     };

@@ -172,7 +172,11 @@ fn eye_pull(eye: &Eye, x: f32, y: f32) -> f32 {
     let s = (x - CORNERS[0].x) / (CORNERS[1].x - CORNERS[0].x);
     let beside = (CORNERS[0].x - x).max(x - CORNERS[1].x).max(0.0);
     let ([ru, rl], [nu, nl]) = (rest.lids(s), eye.lids(s));
-    let (pull, away) = if y >= (ru + rl) * 0.5 { (nu - ru, (y - ru).max(0.0)) } else { (nl - rl, (rl - y).max(0.0)) };
+    let (pull, away) = if y >= (ru + rl) * 0.5 {
+        (nu - ru, (y - ru).max(0.0))
+    } else {
+        (nl - rl, (rl - y).max(0.0))
+    };
     let reach = if y >= ru { 0.0145 } else { 0.011 };
     pull * fade(away, reach) * fade(beside, 0.004)
 }

@@ -1,0 +1,199 @@
+//! The fur collar and the fluffy cuffs: a soft core under rows of tufts.
+
+use std::f32::consts::TAU;
+
+use glam::{Vec2, Vec3};
+
+use super::tuft::{self, Tuft};
+use crate::body::weights;
+use crate::loft::{grid, ring_in};
+use crate::mesh::Part;
+use crate::picture::hash;
+use crate::skeleton::Skeleton;
+
+/// Half of the collar's course, from the middle of the back to the front end on her left, and its radius.
+const COURSE: &[([f32; 3], f32)] = &[
+    ([0.0, 1.256, -0.094], 0.0265),
+    ([0.048, 1.256, -0.086], 0.0268),
+    ([0.09, 1.25, -0.056], 0.0275),
+    ([0.111, 1.243, -0.012], 0.0275),
+    ([0.108, 1.232, 0.034], 0.0262),
+    ([0.092, 1.213, 0.072], 0.024),
+    ([0.077, 1.186, 0.1], 0.0215),
+    ([0.068, 1.152, 0.1165], 0.0185),
+    ([0.063, 1.115, 0.1225], 0.015),
+];
+
+/// Place and radius at `t` from -1 (her right end) to 1.
+fn course(t: f32) -> (Vec3, f32) {
+    let last = COURSE.len() - 1;
+    let at = t.abs() * last as f32;
+    let i = (at as usize).min(last - 1);
+    let get = |k: isize| {
+        let (p, r) = COURSE[k.unsigned_abs().min(last)];
+        (Vec3::new(if k < 0 { -p[0] } else { p[0] }, p[1], p[2]), r)
+    };
+    let i = i as isize;
+    let ((a, _), (b, r0), (c, r1), (d, _)) = (get(i - 1), get(i), get(i + 1), get(i + 2));
+    let f = at - i as f32;
+    let (f2, f3) = (f * f, f * f * f);
+    let p = 0.5 * (2.0 * b + (c - a) * f + (2.0 * a - 5.0 * b + 4.0 * c - d) * f2 + (3.0 * b - a - 3.0 * c + d) * f3);
+    (Vec3::new(if t < 0.0 { -p.x } else { p.x }, p.y, p.z), r0 + (r1 - r0) * f)
+}
+
+/// Frame of the collar: along it (to her left), away from the neck, up.
+fn frame(t: f32) -> (Vec3, Vec3, Vec3) {
+    let along = (course((t + 0.02).min(1.0)).0 - course((t - 0.02).max(-1.0)).0).normalize();
+    let p = course(t).0;
+    let away = Vec3::new(p.x, 0.35 * (p.y - 1.16), p.z + 0.015).normalize();
+    let away = (away - along * away.dot(along)).normalize();
+    (along, away, away.cross(along))
+}
+
+/// The collar.
+pub(super) fn collar(skeleton: &Skeleton) -> Part {
+    let mut part = Part::new("FurCollar", "Jacket_Fur");
+    const STEPS: usize = 37;
+    let place = |s: usize| (2.0 * s as f32 - (STEPS - 1) as f32) / (STEPS - 1) as f32;
+    let rows: Vec<Vec<Vec3>> = (0..STEPS)
+        .map(|s| {
+            let t = place(s);
+            let (p, r) = course(t);
+            let (_, away, up) = frame(t);
+            let close = (1.0 - t.abs().powi(12)).max(0.05).sqrt();
+            ring_in(p, up * r * 0.9 * close, away * r * 0.9 * close, 10)
+        })
+        .collect();
+    let first = grid(
+        &mut part,
+        &rows,
+        true,
+        |r, c| Vec2::new(0.05 + 0.9 * (r * 6.0).fract(), 0.04 + 0.2 * (c - 0.5).abs()),
+        |p| weights::torso(skeleton, p),
+    );
+    fix_winding(&mut part, first);
+
+    // Rows of tufts round the tube: angle from away (0) over up (90) inwards; how they lie.
+    let rows: &[(f32, u32, f32, f32)] = &[
+        (-62.0, 25, 1.12, 0.0),
+        (-18.0, 26, 1.18, 0.5),
+        (26.0, 26, 1.08, 0.0),
+        (68.0, 25, 0.92, 0.5),
+        (112.0, 22, 0.72, 0.0),
+    ];
+    for (row, &(degrees, count, size, shift)) in rows.iter().enumerate() {
+        for i in 0..count {
+            let id = row as u32 * 100 + i;
+            // Mirrored pairs look painted by a ruler, so both halves vary on their own.
+            let t = ((i as f32 + 0.5 + shift * 0.5 - 0.125) / count as f32 * 2.0 - 1.0) * 0.985;
+            let (p, r) = course(t);
+            let (along, away, up) = frame(t);
+            let angle = (degrees + 16.0 * (hash(id, 1, 70) - 0.5)).to_radians();
+            let out = away * angle.cos() + up * angle.sin();
+            let down = away * angle.sin() - up * angle.cos();
+            // Downwards and outwards, towards the ends in front.
+            let lean = along * t.signum() * (0.25 + 0.5 * t.abs()) + along * (hash(id, 2, 71) - 0.5) * 0.7;
+            let length = r * (1.25 + 0.5 * hash(id, 3, 72)) * size;
+            let reach = (down * 0.95 + out * 0.42 + lean).normalize() * length;
+            let tuft = Tuft {
+                root: p + out * r * 0.66 - down * length * 0.3,
+                reach,
+                out,
+                half: r * (0.5 + 0.14 * hash(id, 4, 73)),
+                bend: 0.1 + 0.12 * hash(id, 5, 74),
+                column: 0.125 + 0.25 * (id % 4) as f32,
+            };
+            tuft::add(&mut part, &tuft, weights::torso(skeleton, p));
+        }
+    }
+    part.smooth_normals();
+    soften(&mut part, |p| course(nearest(p)).0);
+    part
+}
+
+fn nearest(p: Vec3) -> f32 {
+    let t = (0..=80)
+        .map(|i| i as f32 / 40.0 - 1.0)
+        .min_by(|a, b| course(*a).0.distance_squared(p).total_cmp(&course(*b).0.distance_squared(p)));
+    t.unwrap_or(0.0)
+}
+
+/// Normals lean towards those of the whole form, so that light falls on fur as on one soft body.
+fn soften(part: &mut Part, axis: impl Fn(Vec3) -> Vec3) {
+    for v in &mut part.vertices {
+        let form = (v.position - axis(v.position)).normalize_or(Vec3::Y);
+        let mixed = v.normal.lerp(form, 0.6).normalize_or(form);
+        // Never against the surface itself.
+        v.normal = if mixed.dot(v.normal) > 0.75 { mixed } else { v.normal };
+    }
+}
+
+/// Turns the triangles of a closed tube outwards.
+fn fix_winding(part: &mut Part, first: u32) {
+    let middle = |ring: &[u32; 3]| ring.iter().map(|i| part.vertices[*i as usize].position).sum::<Vec3>() / 3.0;
+    let vote: f32 = part
+        .triangles
+        .iter()
+        .filter(|t| t[0] >= first)
+        .map(|t| {
+            let [a, b, c] = t.map(|i| part.vertices[i as usize].position);
+            (b - a).cross(c - a).dot(middle(t) - course(nearest(middle(t))).0)
+        })
+        .sum();
+    if vote < 0.0 {
+        part.triangles.iter_mut().filter(|t| t[0] >= first).for_each(|t| t.swap(1, 2));
+    }
+}
+
+/// The cuff of the left sleeve.
+pub(super) fn cuff(skeleton: &Skeleton) -> Part {
+    let mut part = Part::new("FurCuffs", "Jacket_Cuff");
+    let center = Vec3::new(0.503, 1.215, -0.015);
+    let (radius, thick) = (0.0375, 0.0165);
+    let bone = weights::arm(skeleton, center - Vec3::X * 0.03);
+    const AROUND: usize = 20;
+    const TUBE: usize = 8;
+    // A ring round the wrist; its own section turns about it.
+    let rows: Vec<Vec<Vec3>> = (0..=TUBE)
+        .map(|k| {
+            let (s, c) = ((k % TUBE) as f32 / TUBE as f32 * TAU).sin_cos();
+            let reach = radius + thick * 0.85 * c;
+            let middle = center + Vec3::X * thick * 1.1 * s;
+            ring_in(middle, Vec3::NEG_Z * reach, Vec3::Y * reach, AROUND)
+        })
+        .collect();
+    grid(&mut part, &rows, true, |r, c| Vec2::new(0.05 + 0.9 * (c * 4.0).fract(), 0.04 + 0.2 * r), |_| bone);
+    for (row, &(degrees, count, size)) in
+        [(60.0f32, 15u32, 1.0f32), (10.0, 16, 1.15), (-40.0, 15, 1.0)].iter().enumerate()
+    {
+        for i in 0..count {
+            let id = 900 + row as u32 * 50 + i;
+            let around = (i as f32 + 0.5 * (row % 2) as f32 + 0.5 * (hash(id, 1, 75) - 0.5)) / count as f32 * TAU;
+            let radial = Vec3::new(0.0, around.cos(), around.sin());
+            let angle = degrees.to_radians();
+            let out = radial * angle.cos() - Vec3::X * angle.sin();
+            let along = radial * angle.sin() + Vec3::X * angle.cos();
+            let length = thick * (1.5 + 0.6 * hash(id, 2, 76)) * size;
+            let sway = radial.cross(Vec3::X) * (hash(id, 3, 77) - 0.5) * 0.7;
+            let root = center + radial * radius + out * thick * 0.6 - along * length * 0.3;
+            tuft::add(
+                &mut part,
+                &Tuft {
+                    root,
+                    reach: (along * 0.9 + out * 0.5 + sway).normalize() * length,
+                    out,
+                    half: thick * (0.56 + 0.15 * hash(id, 4, 78)),
+                    bend: 0.12,
+                    column: 0.125 + 0.25 * (id % 4) as f32,
+                },
+                bone,
+            );
+        }
+    }
+    part.smooth_normals();
+    soften(&mut part, |p| {
+        let radial = (p - center).with_x(0.0).normalize_or(Vec3::Y);
+        center + radial * radius
+    });
+    part
+}

@@ -1,0 +1,127 @@
+//! Textures of the clothes.
+
+use glam::{Vec2, Vec3};
+
+use crate::picture::{Canvas, Picture, curve, ellipse, noise, polyline, rgb, smoothstep};
+
+fn mix(a: Vec3, b: Vec3, t: f32) -> Vec3 {
+    a + (b - a) * t.clamp(0.0, 1.0)
+}
+
+fn square(x0: f32, y0: f32, x1: f32, y1: f32) -> tiny_skia::Path {
+    polyline(&[Vec2::new(x0, y0), Vec2::new(x1, y0), Vec2::new(x1, y1), Vec2::new(x0, y1)], true)
+}
+
+/// White blouse: placket with buttons, soft folds, a dark ribbon at the collar.
+pub(super) fn blouse() -> Picture {
+    let mut c = Canvas::new(1024, 1024, Some(0xfaf7fb));
+    for i in 0..9 {
+        let x = 0.36 + 0.035 * i as f32;
+        let fold = [Vec2::new(x, 0.3), Vec2::new(x + 0.006, 0.6), Vec2::new(0.5 + (x - 0.5) * 0.8, 0.98)];
+        c.stroke(&curve(&fold, false), 0xd7d2ec, 0.7, 0.004);
+    }
+    c.fill(&square(0.488, 0.07, 0.512, 1.0), 0xefeaf6, 1.0);
+    c.stroke(&polyline(&[Vec2::new(0.488, 0.07), Vec2::new(0.488, 1.0)], false), 0xb9b3d8, 0.9, 0.0025);
+    for i in 0..7 {
+        c.fill(&ellipse(Vec2::new(0.5, 0.17 + 0.12 * i as f32), Vec2::new(0.0055, 0.009)), 0xe8a33d, 1.0);
+    }
+    // The ribbon round the collar.
+    c.fill(&square(0.0, 0.042, 1.0, 0.064), 0x2b2f55, 1.0);
+    c.linear(
+        &square(0.0, 0.07, 1.0, 0.2),
+        Vec2::new(0.0, 0.07),
+        Vec2::new(0.0, 0.2),
+        &[(0.0, 0xc4bce2, 0.8), (1.0, 0xe4def2, 0.0)],
+    );
+    c.finish()
+}
+
+/// Jacket: torso on the left from the back seam to the front edge, sleeve on the right.
+pub(super) fn jacket() -> Picture {
+    let mut c = Canvas::new(1024, 1024, Some(0x414c78));
+    c.linear(
+        &square(0.0, 0.0, 0.63, 1.0),
+        Vec2::new(0.0, 0.0),
+        Vec2::new(0.0, 1.0),
+        &[(0.0, 0x4b5788, 1.0), (0.5, 0x3d4670, 1.0), (1.0, 0x363b62, 1.0)],
+    );
+    c.linear(
+        &square(0.645, 0.0, 1.0, 1.0),
+        Vec2::new(0.0, 0.0),
+        Vec2::new(0.0, 1.0),
+        &[(0.0, 0x465284, 1.0), (0.45, 0x3c456f, 1.0), (0.9, 0x323860, 1.0), (1.0, 0x2a2c50, 1.0)],
+    );
+    // Seams: back, side, waist.
+    for x in [0.2, 0.47] {
+        c.stroke(
+            &curve(&[Vec2::new(x, 0.3), Vec2::new(x + 0.01, 0.65), Vec2::new(x - 0.01, 1.0)], false),
+            0x252a4c,
+            0.9,
+            0.003,
+        );
+    }
+    // Folds at the waist and in the elbow.
+    for i in 0..6 {
+        let x = 0.08 + 0.09 * i as f32;
+        let fold = [Vec2::new(x, 0.62), Vec2::new(x + 0.02, 0.72), Vec2::new(x + 0.012, 0.83)];
+        c.stroke(&curve(&fold, false), 0x2b3058, 0.55, 0.009);
+    }
+    for i in 0..7 {
+        let y = 0.42 + 0.035 * i as f32;
+        let x = 0.7 + 0.04 * (i % 3) as f32;
+        c.stroke(
+            &curve(&[Vec2::new(x, y), Vec2::new(x + 0.06, y + 0.012), Vec2::new(x + 0.12, y - 0.004)], false),
+            0x2b3058,
+            0.55,
+            0.008,
+        );
+    }
+    // Piping along the front edge and the hem.
+    c.fill(&square(0.607, 0.0, 0.63, 1.0), 0xe8a33d, 1.0);
+    c.fill(&square(0.6, 0.0, 0.607, 1.0), 0x252a4c, 1.0);
+    c.fill(&square(0.0, 0.957, 0.63, 0.975), 0xe8a33d, 1.0);
+    c.fill(&square(0.0, 0.95, 0.63, 0.957), 0x252a4c, 1.0);
+    for i in 0..3 {
+        let at = Vec2::new(0.57, 0.62 + 0.12 * i as f32);
+        c.fill(&ellipse(at, Vec2::new(0.012, 0.015)), 0x7a4a1c, 1.0);
+        c.fill(&ellipse(at - Vec2::splat(0.002), Vec2::new(0.009, 0.0115)), 0xe2b04a, 1.0);
+        c.fill(&ellipse(at - Vec2::splat(0.005), Vec2::new(0.003, 0.004)), 0xfff0c0, 1.0);
+    }
+    let mut picture = c.finish();
+    picture.map(|uv, [r, g, b, a]| {
+        let n = (noise(uv * 160.0, [160, 160], 2) - 0.5) * 0.02;
+        [r + n, g + n, b + n, a]
+    });
+    picture
+}
+
+/// Fur: v runs along a tuft from its dark root to its light tip, with painted strokes.
+pub(super) fn fur() -> Picture {
+    let [root, body, light] = [0xcbb9d2, 0xf0e8ec, 0xfffbf6].map(rgb);
+    Picture::from_fn(512, 512, |uv| {
+        let stroke = noise(Vec2::new(uv.x * 64.0, uv.y * 5.0), [64, 64], 21) - 0.5;
+        let v = uv.y + stroke * 0.28;
+        let mut color = mix(root, body, smoothstep(0.06, 0.42, v));
+        color = mix(color, light, smoothstep(0.45, 0.8, v));
+        let pen = smoothstep(0.82, 0.95, noise(Vec2::new(uv.x * 40.0, uv.y * 2.0), [40, 64], 22));
+        color = mix(color, root, 0.6 * pen * smoothstep(0.95, 0.5, uv.y));
+        [color.x, color.y, color.z, 1.0]
+    })
+}
+
+/// Skirt: 22 pleats side by side; the fold of each is dark, a pale stripe runs above the hem.
+pub(super) fn skirt() -> Picture {
+    let [light, cloth, deep, stripe] = [0x5d5378, 0x4a4163, 0x2c2546, 0xd9cfe6].map(rgb);
+    Picture::from_fn(2048, 512, |uv| {
+        let x = (uv.x * 22.0).fract();
+        if uv.y > 0.945 {
+            return [deep.x, deep.y, deep.z, 1.0];
+        }
+        let mut color = mix(cloth, light, smoothstep(0.6, 0.15, x) * (0.35 + 0.5 * uv.y));
+        let line = smoothstep(0.012, 0.008, (uv.y - 0.85).abs()) + smoothstep(0.005, 0.003, (uv.y - 0.885).abs());
+        color = mix(color, stripe, line.min(1.0));
+        color = mix(color, deep, smoothstep(0.64, 0.72, x) * 0.9);
+        color = mix(color, deep, 0.6 * smoothstep(0.04, 0.0, x) + 0.5 * smoothstep(0.12, 0.0, uv.y));
+        [color.x, color.y, color.z, 1.0]
+    })
+}
