@@ -75,7 +75,8 @@ pub(super) fn build(skeleton: &Skeleton) -> Part {
         ears.triangles.iter_mut().for_each(|t| t.swap(1, 2));
     }
     ears.smooth_normals();
-    let right = ears.mirrored(skeleton);
+    let mut right = ears.mirrored(skeleton);
+    right.vertices.iter_mut().for_each(|v| v.uv.x = 1.0 - v.uv.x);
     ears.append(&right);
     ears
 }

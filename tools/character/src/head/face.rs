@@ -354,7 +354,7 @@ fn socket(skeleton: &Skeleton, grid: &Grid, point: &impl Fn(usize, usize) -> Vec
                 Vec3::new(q.x, q.y, front(q.x, q.y).z - 0.0105)
             };
             let flip = |q: Vec3| Vec3::new(q.x * sign, q.y, q.z);
-            part.vertex(flip(back), flip_u(uv(p, 0.0), sign), weights(skeleton, p));
+            part.vertex(flip(back), flip_u(uv(back, 0.0), sign), weights(skeleton, p));
             edge.push(border.then(|| flip(p)));
         }
     }
