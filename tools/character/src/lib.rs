@@ -18,6 +18,7 @@ pub mod loft;
 pub mod mesh;
 pub mod model;
 pub mod picture;
+pub mod props;
 pub mod skeleton;
 mod vrm;
 
@@ -32,6 +33,7 @@ pub fn build() -> Model {
     clothes::add(&mut model);
     head::add(&mut model);
     hair::add(&mut model);
+    props::add(&mut model);
     model
 }
 

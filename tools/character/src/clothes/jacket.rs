@@ -122,9 +122,8 @@ pub(super) fn left(skeleton: &Skeleton) -> [Part; 2] {
     }
     for r in 0..rows - 1 {
         for c in 0..COLUMNS - 1 {
-            if !in_hole(r, c) {
-                lining.quad(index(r, c), index(r + 1, c), index(r + 1, c + 1), index(r, c + 1));
-            }
+            // Closed at the armhole too, so that nobody looks into the sleeve.
+            lining.quad(index(r, c), index(r + 1, c), index(r + 1, c + 1), index(r, c + 1));
         }
     }
     // Rim: outer edge to inner edge.

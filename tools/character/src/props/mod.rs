@@ -1,0 +1,122 @@
+//! Ornaments: a bow with a brooch, the belt's buckle, an amber pendant, a diamond hair-pin, a flame.
+
+mod bow;
+mod flame;
+mod metal;
+mod paint;
+mod stone;
+
+use glam::Vec3;
+
+use crate::body::shape::torso;
+use crate::model::{Alpha, Material, Model, Spring, Texture, srgb, srgba};
+
+/// Point before the blouse at height `y`, this far from the cloth.
+fn before_chest(y: f32, out: f32) -> Vec3 {
+    Vec3::new(0.0, y, torso(y)[1] + 0.0036 + out)
+}
+
+/// Adds the ornaments.
+pub fn add(model: &mut Model) {
+    let pendant = pendant_chain(model);
+    let skeleton = &model.skeleton;
+    let parts = [
+        bow::build(skeleton),
+        metal::brooch(skeleton),
+        metal::belt_buckle(skeleton),
+        metal::cord(skeleton, pendant),
+        stone::amber(pendant),
+        metal::pin(skeleton),
+        stone::diamond(skeleton),
+        flame::build(skeleton),
+    ];
+    model.parts.extend(parts);
+    materials(model);
+    model.expressions.push(flame::expression());
+}
+
+/// Bones of the pendant: where the cord leaves the bow, the stone, its end.
+fn pendant_chain(model: &mut Model) -> [usize; 2] {
+    let chest = model.skeleton.find("upperChest");
+    let first = model.skeleton.add("Pendant_0", chest, before_chest(CORD[0], 0.006));
+    let second = model.skeleton.add("Pendant_1", first, before_chest(CORD[1], 0.0085));
+    let end = model.skeleton.add("Pendant_2", second, before_chest(CORD[1], 0.0085) - Vec3::Y * 0.03);
+    model.springs.push(Spring {
+        name: "Pendant".to_owned(),
+        joints: vec![first, second, end],
+        stiffness: 1.0,
+        drag: 0.35,
+        gravity: 0.2,
+        radius: 0.008,
+        colliders: vec!["body"],
+    });
+    [first, second]
+}
+
+/// Heights of the cord's upper end and of the stone.
+const CORD: [f32; 2] = [1.232, 1.168];
+
+fn materials(model: &mut Model) {
+    let texture = |name, paint| Texture { name, paint, repeat: false };
+    model.textures.extend([
+        texture("metal_highlight", paint::metal_highlight as fn() -> _),
+        texture("amber", paint::amber),
+        texture("amber_matcap", paint::amber_matcap),
+        texture("diamond_matcap", paint::diamond_matcap),
+        texture("flame", paint::flame),
+    ]);
+    let metal = |name, color, shade, line| Material {
+        name,
+        color: srgba(color),
+        shade: srgb(shade),
+        matcap: Some(("metal_matcap", [0.8; 3])),
+        outline: 0.0006,
+        outline_color: srgb(line),
+        extras: [("highlightShape", "metal_highlight")].into(),
+        ..Material::default()
+    };
+    model.materials.extend([
+        Material {
+            name: "Cloth_Bow",
+            color: srgba(0x39406e),
+            shade: srgb(0x242650),
+            double_sided: false,
+            outline: 0.0008,
+            outline_color: srgb(0x12132b),
+            ..Material::default()
+        },
+        metal("Metal_Brooch", 0x8c5a22, 0x4e2b1e, 0x2e180f),
+        metal("Metal_Pin", 0x77809a, 0x444868, 0x23243c),
+        Material {
+            name: "Accessory_Amber",
+            texture: Some("amber"),
+            shade: srgb(0xd89a78),
+            shade_texture: Some("amber"),
+            matcap: Some(("amber_matcap", [0.9; 3])),
+            outline: 0.0006,
+            outline_color: srgb(0x5a2410),
+            ..Material::default()
+        },
+        Material {
+            name: "Accessory_Diamond",
+            color: srgba(0x9fb6d8),
+            shade: srgb(0x7186b8),
+            matcap: Some(("diamond_matcap", [0.85; 3])),
+            outline: 0.0005,
+            outline_color: srgb(0x39406e),
+            ..Material::default()
+        },
+        Material {
+            name: "Accessory_Flame",
+            texture: Some("flame"),
+            shade: [0.98, 0.96, 0.94],
+            shade_texture: Some("flame"),
+            shift: 1.0,
+            emission: [0.35, 0.3, 0.25],
+            emission_texture: Some("flame"),
+            alpha: Alpha::Blend { depth_write: false, queue: 3 },
+            double_sided: true,
+            ..Material::default()
+        },
+    ]);
+}
