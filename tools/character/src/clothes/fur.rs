@@ -75,11 +75,13 @@ pub(super) fn collar(skeleton: &Skeleton) -> Part {
 
     // Rows of tufts round the tube: angle from away (0) over up (90) inwards; how they lie.
     let rows: &[(f32, u32, f32, f32)] = &[
-        (-62.0, 25, 1.12, 0.0),
-        (-18.0, 26, 1.18, 0.5),
-        (26.0, 26, 1.08, 0.0),
-        (68.0, 25, 0.92, 0.5),
-        (112.0, 22, 0.72, 0.0),
+        (-74.0, 36, 1.0, 0.0),
+        (-40.0, 38, 1.14, 0.5),
+        (-8.0, 38, 1.2, 0.0),
+        (24.0, 38, 1.14, 0.5),
+        (56.0, 36, 1.0, 0.0),
+        (88.0, 32, 0.84, 0.5),
+        (122.0, 28, 0.66, 0.0),
     ];
     for (row, &(degrees, count, size, shift)) in rows.iter().enumerate() {
         for i in 0..count {
@@ -93,13 +95,13 @@ pub(super) fn collar(skeleton: &Skeleton) -> Part {
             let down = away * angle.sin() - up * angle.cos();
             // Downwards and outwards, towards the ends in front.
             let lean = along * t.signum() * (0.25 + 0.5 * t.abs()) + along * (hash(id, 2, 71) - 0.5) * 0.7;
-            let length = r * (1.25 + 0.5 * hash(id, 3, 72)) * size;
+            let length = r * (1.1 + 0.6 * hash(id, 3, 72)) * size;
             let reach = (down * 0.95 + out * 0.42 + lean).normalize() * length;
             let tuft = Tuft {
                 root: p + out * r * 0.66 - down * length * 0.3,
                 reach,
                 out,
-                half: r * (0.5 + 0.14 * hash(id, 4, 73)),
+                half: r * (0.33 + 0.12 * hash(id, 4, 73)),
                 bend: 0.1 + 0.12 * hash(id, 5, 74),
                 column: 0.125 + 0.25 * (id % 4) as f32,
             };
@@ -118,13 +120,13 @@ fn nearest(p: Vec3) -> f32 {
     t.unwrap_or(0.0)
 }
 
-/// Normals lean towards those of the whole form, so that light falls on fur as on one soft body.
+/// Normals are those of the whole form, so that light falls on fur as on one soft body.
 fn soften(part: &mut Part, axis: impl Fn(Vec3) -> Vec3) {
     for v in &mut part.vertices {
         let form = (v.position - axis(v.position)).normalize_or(Vec3::Y);
-        let mixed = v.normal.lerp(form, 0.6).normalize_or(form);
+        let mixed = v.normal.lerp(form, 0.8).normalize_or(form);
         // Never against the surface itself.
-        v.normal = if mixed.dot(v.normal) > 0.75 { mixed } else { v.normal };
+        v.normal = if mixed.dot(v.normal) > 0.4 { mixed } else { v.normal };
     }
 }
 
@@ -164,7 +166,7 @@ pub(super) fn cuff(skeleton: &Skeleton) -> Part {
         .collect();
     grid(&mut part, &rows, true, |r, c| Vec2::new(0.05 + 0.9 * (c * 4.0).fract(), 0.04 + 0.2 * r), |_| bone);
     for (row, &(degrees, count, size)) in
-        [(60.0f32, 15u32, 1.0f32), (10.0, 16, 1.15), (-40.0, 15, 1.0)].iter().enumerate()
+        [(66.0f32, 22u32, 0.9f32), (30.0, 24, 1.1), (-6.0, 24, 1.15), (-44.0, 22, 1.0)].iter().enumerate()
     {
         for i in 0..count {
             let id = 900 + row as u32 * 50 + i;
@@ -180,9 +182,9 @@ pub(super) fn cuff(skeleton: &Skeleton) -> Part {
                 &mut part,
                 &Tuft {
                     root,
-                    reach: (along * 0.9 + out * 0.5 + sway).normalize() * length,
+                    reach: (along * 0.95 + out * 0.42 + sway).normalize() * length,
                     out,
-                    half: thick * (0.56 + 0.15 * hash(id, 4, 78)),
+                    half: thick * (0.38 + 0.13 * hash(id, 4, 78)),
                     bend: 0.12,
                     column: 0.125 + 0.25 * (id % 4) as f32,
                 },

@@ -47,6 +47,7 @@ fn materials(model: &mut Model) {
         texture("blouse", paint::blouse as fn() -> _),
         texture("jacket", paint::jacket),
         texture("fur", paint::fur),
+        texture("fur_normal", paint::fur_normal),
         texture("skirt", paint::skirt),
     ]);
     let cloth = |name, texture, shade, line| Material {
@@ -58,12 +59,22 @@ fn materials(model: &mut Model) {
         outline_color: srgb(line),
         ..Material::default()
     };
+    let fur = |name| Material {
+        name,
+        texture: Some("fur"),
+        shade: srgb(0xcdbce0),
+        shade_texture: Some("fur"),
+        // Tufts are leaves without a back.
+        double_sided: true,
+        extras: [("detailNormal", "fur_normal")].into(),
+        ..Material::default()
+    };
     model.materials.extend([
         cloth("Cloth_Blouse", "blouse", 0xc2bde6, 0x4a4674),
         cloth("Jacket", "jacket", 0x9a88c8, 0x14142c),
         Material { name: "Jacket_Lining", color: srgba(0xe8a33d), shade: srgb(0xb0603a), ..Material::default() },
-        cloth("Jacket_Fur", "fur", 0xcdbce0, 0x6d5f86),
-        cloth("Jacket_Cuff", "fur", 0xcdbce0, 0x6d5f86),
+        fur("Jacket_Fur"),
+        fur("Jacket_Cuff"),
         cloth("Skirt", "skirt", 0x9580c4, 0x171228),
         Material {
             name: "Cloth_Belt",

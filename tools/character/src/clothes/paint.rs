@@ -95,17 +95,45 @@ pub(super) fn jacket() -> Picture {
     picture
 }
 
-/// Fur: v runs along a tuft from its dark root to its light tip, with painted strokes.
+/// Strokes of fur: they run along v and lean together at the tip.
+fn strokes(uv: Vec2, count: f32, seed: u32) -> f32 {
+    let (tuft, u) = ((uv.x * 4.0).floor(), (uv.x * 4.0).fract() - 0.5);
+    let spread = u * (0.55 + 0.45 * uv.y);
+    noise(Vec2::new((tuft + 0.5 + spread) * count * 0.25, uv.y * 2.5), [count as i32, 64], seed)
+}
+
+/// Height of the painted fur, 0..1: the strands of a tuft, higher in its middle.
+fn fur_height(uv: Vec2) -> f32 {
+    let u = ((uv.x * 4.0).fract() - 0.5).abs() * 2.0;
+    let dome = (1.0 - u * u).max(0.0).sqrt();
+    0.6 * dome + 0.25 * strokes(uv, 48.0, 21) + 0.15 * strokes(uv, 112.0, 22)
+}
+
+/// Fur: v runs along a tuft from its root, in the shade of its neighbours, to its light tip; a thin line at its edge
+/// parts it from them.
 pub(super) fn fur() -> Picture {
-    let [root, body, light] = [0xcbb9d2, 0xf0e8ec, 0xfffbf6].map(rgb);
-    Picture::from_fn(512, 512, |uv| {
-        let stroke = noise(Vec2::new(uv.x * 64.0, uv.y * 5.0), [64, 64], 21) - 0.5;
-        let v = uv.y + stroke * 0.28;
-        let mut color = mix(root, body, smoothstep(0.06, 0.42, v));
-        color = mix(color, light, smoothstep(0.45, 0.8, v));
-        let pen = smoothstep(0.82, 0.95, noise(Vec2::new(uv.x * 40.0, uv.y * 2.0), [40, 64], 22));
-        color = mix(color, root, 0.6 * pen * smoothstep(0.95, 0.5, uv.y));
+    let [root, body, light, line] = [0xc9b6d6, 0xece2ec, 0xfffcf8, 0xa892bf].map(rgb);
+    Picture::from_fn(1024, 512, |uv| {
+        let broad = strokes(uv, 40.0, 21) - 0.5;
+        let v = uv.y + broad * 0.3;
+        let mut color = mix(root, body, smoothstep(0.12, 0.42, v));
+        color = mix(color, light, smoothstep(0.4, 0.72, v));
+        let pen = smoothstep(0.78, 0.92, strokes(uv, 72.0, 22));
+        color = mix(color, line, 0.55 * pen * smoothstep(0.85, 0.45, uv.y));
+        let edge = 1.0 - ((uv.x * 4.0).fract() - 0.5).abs() * 2.0;
+        color = mix(color, line, 0.8 * smoothstep(0.16, 0.05, edge) * smoothstep(0.2, 0.45, uv.y));
         [color.x, color.y, color.z, 1.0]
+    })
+}
+
+/// Normals of the painted fur, for looks that light its strands one by one.
+pub(super) fn fur_normal() -> Picture {
+    const STEP: f32 = 1.0 / 1024.0;
+    Picture::from_fn(1024, 512, |uv| {
+        let slope = |d: Vec2| (fur_height(uv + d) - fur_height(uv - d)) / (2.0 * STEP);
+        // Slopes of the texture, as if a tuft were as high as a quarter of its width.
+        let n = Vec3::new(-slope(Vec2::X * STEP) / 60.0, slope(Vec2::Y * STEP) / 60.0, 1.0).normalize();
+        [n.x * 0.5 + 0.5, n.y * 0.5 + 0.5, n.z * 0.5 + 0.5, 1.0]
     })
 }
 

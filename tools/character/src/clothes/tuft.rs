@@ -1,4 +1,4 @@
-//! Tufts of fur: pointed clumps laid over one another like shingles.
+//! Tufts of fur: pointed leaves laid over one another like shingles. What separates them is painted, not outlined.
 
 use glam::{Vec2, Vec3};
 
@@ -22,32 +22,31 @@ pub(super) struct Tuft {
     pub(super) column: f32,
 }
 
-/// Adds a tuft: three rings of five and a tip.
+/// Heights along a tuft and its width there.
+const STATIONS: [[f32; 2]; 4] = [[0.0, 0.8], [0.3, 1.0], [0.6, 0.74], [0.83, 0.38]];
+/// Across a tuft: side, height over its edges, texture.
+const ACROSS: [[f32; 3]; 4] = [[-1.0, -0.2, 0.0], [-0.36, 0.34, 0.32], [0.36, 0.34, 0.68], [1.0, -0.2, 1.0]];
+
+/// Adds a tuft: a curved leaf of four columns that runs into a tip.
 pub(super) fn add(part: &mut Part, tuft: &Tuft, weights: Weights) {
-    const RING: u32 = 5;
+    let columns = ACROSS.len() as u32;
     let first = part.vertices.len() as u32;
     let length = tuft.reach.length();
     let along = tuft.reach / length;
     let out = (tuft.out - along * tuft.out.dot(along)).normalize_or(Vec3::Y);
     let side = out.cross(along);
     let at = |t: f32| tuft.root + tuft.reach * t + out * (tuft.bend * length * t * t);
-    let uv = |u: f32, v: f32| Vec2::new(tuft.column + 0.22 * (u - 0.5), v);
-    for (t, share) in [(0.0, 0.72), (0.34, 1.0), (0.7, 0.6)] {
+    let uv = |u: f32, v: f32| Vec2::new(tuft.column + 0.24 * (u - 0.5), v);
+    for [t, share] in STATIONS {
         let w = tuft.half * share;
-        let h = w * 0.62;
-        for (x, y, u) in [
-            (-w, -0.3 * h, 0.0),
-            (-0.5 * w, 0.7 * h, 0.25),
-            (0.05 * w, h, 0.5),
-            (0.55 * w, 0.65 * h, 0.75),
-            (w, -0.3 * h, 1.0),
-        ] {
-            part.vertex(at(t) + side * x + out * y, uv(u, 0.04 + 0.92 * t), weights);
+        for [x, y, u] in ACROSS {
+            part.vertex(at(t) + (side * x + out * y) * w, uv(u, 0.02 + 0.96 * t), weights);
         }
     }
-    part.quads(first, 3, RING, true);
+    part.quads(first, STATIONS.len() as u32, columns, false);
     let tip = part.vertex(at(1.0), uv(0.5, 0.99), weights);
-    for i in 0..RING {
-        part.triangles.push([first + 2 * RING + i, tip, first + 2 * RING + (i + 1) % RING]);
+    let last = first + (STATIONS.len() as u32 - 1) * columns;
+    for i in 0..columns - 1 {
+        part.triangles.push([last + i, tip, last + i + 1]);
     }
 }

@@ -99,7 +99,7 @@ pub(super) fn belt_buckle(skeleton: &Skeleton) -> Part {
     let points: Vec<Vec3> = course.iter().map(|[x, y]| center + Vec3::X * *x + up * *y).collect();
     wire(&mut part, &points, normal, 0.0024, bone);
     // The prong lies over the frame.
-    let prong = |x: f32, lift: f32, r: f32| ring_in(center + Vec3::X * x + normal * lift, -up * r, normal * r, 8);
+    let prong = |x: f32, lift: f32, r: f32| ring_in(center + Vec3::X * x + normal * lift, up * r, normal * r, 8);
     let rows = [
         prong(-0.0205, 0.001, 0.0019),
         prong(-0.0195, 0.003, 0.0021),
@@ -148,7 +148,7 @@ pub(super) fn pin(skeleton: &Skeleton) -> Part {
     let mut part = Part::new("HairPin", "Metal_Pin");
     let bone = skeleton.only("head");
     let [right, up, front] = pin_frame();
-    let bar = |x: f32, r: f32| ring_in(PIN + right * x - front * 0.0018, -up * r, front * r * 0.7, 8);
+    let bar = |x: f32, r: f32| ring_in(PIN + right * x - front * 0.0018, up * r, front * r * 0.7, 8);
     let rows = [bar(-0.023, 0.0008), bar(-0.021, 0.0022), bar(0.0, 0.0026), bar(0.021, 0.0022), bar(0.023, 0.0008)];
     let first = grid(&mut part, &rows, true, Vec2::new, |_| bone);
     part.cap(&row(first, 9, 0, true), Vec2::ZERO, bone);

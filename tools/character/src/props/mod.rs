@@ -65,11 +65,11 @@ fn materials(model: &mut Model) {
         texture("diamond_matcap", paint::diamond_matcap),
         texture("flame", paint::flame),
     ]);
-    let metal = |name, color, shade, line| Material {
+    let metal = |name, color, shade, line, gloss| Material {
         name,
         color: srgba(color),
         shade: srgb(shade),
-        matcap: Some(("metal_matcap", [0.8; 3])),
+        matcap: Some(("metal_matcap", gloss)),
         outline: 0.0006,
         outline_color: srgb(line),
         extras: [("highlightShape", "metal_highlight")].into(),
@@ -80,13 +80,12 @@ fn materials(model: &mut Model) {
             name: "Cloth_Bow",
             color: srgba(0x39406e),
             shade: srgb(0x242650),
-            double_sided: false,
             outline: 0.0008,
             outline_color: srgb(0x12132b),
             ..Material::default()
         },
-        metal("Metal_Brooch", 0x8c5a22, 0x4e2b1e, 0x2e180f),
-        metal("Metal_Pin", 0x77809a, 0x444868, 0x23243c),
+        metal("Metal_Brooch", 0x8c5a22, 0x4e2b1e, 0x2e180f, [0.8; 3]),
+        metal("Metal_Pin", 0x6c7590, 0x3f4462, 0x23243c, [0.42, 0.56, 0.95]),
         Material {
             name: "Accessory_Amber",
             texture: Some("amber"),
