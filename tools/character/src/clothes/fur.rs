@@ -81,7 +81,8 @@ pub(super) fn collar(skeleton: &Skeleton) -> Part {
         (24.0, 38, 1.14, 0.5),
         (56.0, 36, 1.0, 0.0),
         (88.0, 32, 0.84, 0.5),
-        (122.0, 28, 0.66, 0.0),
+        (120.0, 30, 0.66, 0.0),
+        (152.0, 28, 0.5, 0.5),
     ];
     for (row, &(degrees, count, size, shift)) in rows.iter().enumerate() {
         for i in 0..count {

@@ -113,7 +113,12 @@ pub(super) fn left(skeleton: &Skeleton) -> [Part; 2] {
     for (r, y) in HEIGHTS.iter().enumerate() {
         for c in 0..COLUMNS {
             let y = y.clamp(HEIGHTS[rows - 1] + 0.0015, HEIGHTS[0] - 0.001);
-            let mut p = body_point(y, edge_column(c) * if c == COLUMNS - 1 { 0.994 } else { 1.0 }, OUT - 0.0034);
+            // Deeper at the armhole, where a lowered arm dents the cloth.
+            let middle = 0.5 * (HOLE[2] + HOLE[3]) as f32;
+            let dent =
+                smoothstep(8.0, 4.0, (c as f32 - middle).abs()) * smoothstep(1.06, 1.11, y) * smoothstep(1.24, 1.2, y);
+            let inset = OUT - 0.0034 - 0.046 * dent;
+            let mut p = body_point(y, edge_column(c) * if c == COLUMNS - 1 { 0.994 } else { 1.0 }, inset);
             if c == 0 {
                 p.x = 0.0;
             }
@@ -238,7 +243,7 @@ pub(super) fn blouse(skeleton: &Skeleton) -> Part {
             }
             // Narrower than the body under the arms: there the jacket follows them, and nobody looks.
             let [half, front, back] = torso(*y);
-            let narrow = 0.03 * smoothstep(1.03, 1.1, *y) * smoothstep(1.245, 1.2, *y);
+            let narrow = 0.048 * smoothstep(1.0, 1.1, *y) * smoothstep(1.245, 1.2, *y);
             ring(Vec3::new(0.0, *y, 0.0), half + out - narrow, front + out, back + out - narrow * 0.4, 40)
         })
         .collect();

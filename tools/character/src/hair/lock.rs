@@ -73,7 +73,7 @@ impl Lock {
         let rise = (t / self.belly).min(1.0);
         let rise = self.root + (1.0 - self.root) * rise * rise * (3.0 - 2.0 * rise);
         let fall = ((t - self.belly) / (1.0 - self.belly)).max(0.0);
-        rise * (1.0 - fall.powf(1.7)).max(0.0).powf(0.85)
+        rise * (1.0 - fall.powf(1.55)).max(0.0).powf(0.9)
     }
 
     /// Adds the lock; `chain` moves its free end.
@@ -102,9 +102,22 @@ impl Lock {
         let stations = ((total / 0.028).ceil() as u32).clamp(7, 17);
         let first = part.vertices.len() as u32;
         let (u0, u1) = (self.strip as f32 * 0.25 + 0.006, self.strip as f32 * 0.25 + 0.244);
+        // Stations stand denser where the lock bends, and towards its tip.
+        let mut effort = vec![0.0];
+        for i in 0..SAMPLES {
+            let (a, b) = (dense[i + 1] - dense[i], dense[(i + 2).min(SAMPLES)] - dense[(i + 1).min(SAMPLES - 1)]);
+            let bend = if a.length_squared() > 0.0 && b.length_squared() > 0.0 {
+                a.angle_between(b)
+            } else {
+                0.0
+            };
+            effort.push(effort[i] + a.length() * (1.0 + 0.35 * lengths[i] / total) + 0.09 * bend);
+        }
         for s in 0..stations {
-            // Denser towards the tip, where the outline bends most.
-            let t = 0.965 * (s as f32 / (stations - 1) as f32).powf(0.92);
+            let want = effort[SAMPLES] * s as f32 / (stations - 1) as f32;
+            let i = effort.iter().rposition(|e| *e <= want).unwrap_or(0).min(SAMPLES - 1);
+            let part_way = (want - effort[i]) / (effort[i + 1] - effort[i]).max(1e-9);
+            let t = 0.965 * (lengths[i] + (lengths[i + 1] - lengths[i]) * part_way.min(1.0)) / total;
             let p = at_length(t);
             let tangent = (at_length((t + 0.02).min(1.0)) - at_length((t - 0.02).max(0.0))).normalize();
             let out = outward(p);

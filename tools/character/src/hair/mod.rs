@@ -29,7 +29,7 @@ pub fn add(model: &mut Model) {
         model.materials.push(Material {
             name,
             texture: Some("hair"),
-            shade: srgb(0xc4b2e2),
+            shade: srgb(0xd2c6e6),
             shade_texture: Some("hair_shade"),
             shift: -0.12,
             toony: 0.95,
@@ -45,7 +45,7 @@ pub fn add(model: &mut Model) {
     model.materials.push(Material {
         name: "HairCards",
         texture: Some("hair_card"),
-        shade: srgb(0xc4b2e2),
+        shade: srgb(0xd2c6e6),
         shade_texture: Some("hair_card"),
         shift: -0.05,
         alpha: Alpha::Blend { depth_write: false, queue: 1 },

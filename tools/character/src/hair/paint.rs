@@ -27,6 +27,11 @@ fn paint(stops: [u32; 4], line: u32, dark: f32) -> Picture {
         let mut color = mix(root, upper, smoothstep(0.0, 0.24, v));
         color = mix(color, lower, smoothstep(0.35, 0.72, v));
         color = mix(color, tip, smoothstep(0.68, 1.0, v));
+        // No two neighbours have quite the same tone.
+        color *= [1.0, 0.965, 1.02, 1.0][(strip as usize).min(3)];
+        // Where the head is round towards the light, all hair is a little paler.
+        let gloss = (-((uv.y + 0.03 * strands(Vec2::new(uv.x, 0.7), 60.0, 8) - BAND_V) / 0.085).powi(2)).exp();
+        color = mix(color, Vec3::ONE, 0.2 * gloss);
         // Broad and fine strands.
         let broad = strands(uv, 40.0, 11);
         let fine = strands(uv, 160.0, 12);
@@ -47,12 +52,12 @@ fn paint(stops: [u32; 4], line: u32, dark: f32) -> Picture {
 
 /// Lit colour.
 pub(super) fn lit() -> Picture {
-    paint([0xbdb6e2, 0xd9d5f2, 0xc3c1ea, 0x8e92d6], 0x8f88c6, 0.34)
+    paint([0xc0bae0, 0xdedaf2, 0xcac7ea, 0x979cd8], 0x8d86c0, 0.3)
 }
 
 /// Colour in shade, before the tint of the material.
 pub(super) fn shade() -> Picture {
-    paint([0xa79bd6, 0xbdb2e6, 0xaaa2de, 0x7f7fce], 0x7a6cb6, 0.34)
+    paint([0xaea6d4, 0xc9c2e4, 0xb6b0de, 0x8b8ecf], 0x7f75b2, 0.3)
 }
 
 /// The band of light round the head, white on black: jagged below, as brushes leave it. It lies where v is 0.3, which

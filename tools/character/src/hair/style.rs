@@ -17,8 +17,11 @@ pub(super) fn direction(around: f32, down: f32) -> Vec3 {
     Quat::from_rotation_x(-0.3) * Vec3::new(sd * sa, cd, sd * ca)
 }
 
+/// Hair stands off the head: not at the whorl, most over the crown, metres.
+const VOLUME: f32 = 0.008;
+
 fn on_skull(around: f32, down: f32, lift: f32) -> Vec3 {
-    skull(direction(around, down), lift)
+    skull(direction(around, down), lift + VOLUME * smoothstep(2.0, 34.0, down))
 }
 
 /// A number in -1..1 that belongs to a lock.
@@ -30,28 +33,30 @@ fn vary(index: u32, seed: u32) -> f32 {
 pub(super) fn front() -> Vec<Placed> {
     // Tip x, tip y, root angle, half width, thickness, layer (0 over, 1 under), sideways swing of the tip.
     const BANGS: &[(f32, f32, f32, f32, f32, u32, f32)] = &[
-        // Upper layer, from her right to her left.
-        (-0.0705, 1.396, -52.0, 0.0125, 0.0062, 0, 0.004),
-        (-0.0525, 1.4205, -38.0, 0.0135, 0.0068, 0, 0.005),
-        (-0.0335, 1.4335, -25.0, 0.0135, 0.007, 0, 0.006),
-        (-0.0135, 1.4125, -11.0, 0.0145, 0.0078, 0, 0.005),
-        (0.0035, 1.4245, 2.0, 0.0105, 0.006, 0, 0.004),
-        (0.0265, 1.4325, 14.0, 0.0135, 0.007, 0, -0.006),
-        (0.0455, 1.4255, 28.0, 0.0135, 0.007, 0, -0.007),
-        (0.0605, 1.411, 40.0, 0.0125, 0.0066, 0, -0.006),
-        (0.0735, 1.389, 53.0, 0.0125, 0.0062, 0, -0.004),
+        // Upper layer, from her right to her left: clumps of two or three whose tips lean together.
+        (-0.0795, 1.377, -58.0, 0.0125, 0.0066, 0, 0.004),
+        (-0.0675, 1.4005, -47.0, 0.0165, 0.0078, 0, -0.003),
+        (-0.0505, 1.4225, -36.0, 0.0125, 0.007, 0, -0.007),
+        (-0.0265, 1.4215, -22.0, 0.0165, 0.0082, 0, 0.008),
+        (-0.0055, 1.4005, -7.0, 0.0175, 0.0092, 0, 0.004),
+        (0.0085, 1.4245, 6.0, 0.0105, 0.0066, 0, -0.005),
+        (0.0345, 1.4185, 19.0, 0.0165, 0.0082, 0, 0.006),
+        (0.0485, 1.4265, 29.0, 0.0115, 0.007, 0, -0.005),
+        (0.0655, 1.4025, 43.0, 0.0165, 0.0078, 0, 0.003),
+        (0.0785, 1.3745, 56.0, 0.0125, 0.0066, 0, -0.004),
         // Lower layer, shorter, in the gaps.
-        (-0.0615, 1.4295, -45.0, 0.0115, 0.005, 1, 0.002),
-        (-0.043, 1.4405, -32.0, 0.0125, 0.005, 1, 0.003),
-        (-0.0235, 1.4395, -18.0, 0.012, 0.005, 1, 0.003),
-        (-0.0045, 1.4385, -4.0, 0.011, 0.005, 1, 0.0),
-        (0.015, 1.4405, 9.0, 0.0115, 0.005, 1, -0.002),
-        (0.0365, 1.441, 21.0, 0.012, 0.005, 1, -0.003),
-        (0.054, 1.434, 34.0, 0.0115, 0.005, 1, -0.003),
+        (-0.0605, 1.4285, -43.0, 0.0135, 0.005, 1, 0.002),
+        (-0.0395, 1.4395, -30.0, 0.0145, 0.005, 1, 0.003),
+        (-0.0175, 1.4375, -16.0, 0.014, 0.005, 1, 0.003),
+        (0.001, 1.4365, -1.0, 0.0135, 0.005, 1, 0.001),
+        (0.0205, 1.4395, 11.0, 0.014, 0.005, 1, -0.002),
+        (0.0425, 1.4385, 24.0, 0.0135, 0.005, 1, -0.003),
+        (0.058, 1.4295, 37.0, 0.0135, 0.005, 1, -0.003),
         // Thin strands that break the row.
-        (-0.0225, 1.4205, -20.0, 0.0045, 0.003, 0, 0.009),
-        (0.0375, 1.4145, 22.0, 0.0042, 0.003, 0, -0.01),
-        (-0.046, 1.408, -40.0, 0.004, 0.003, 0, 0.006),
+        (-0.0145, 1.4145, -16.0, 0.0042, 0.003, 0, 0.009),
+        (0.0255, 1.4075, 16.0, 0.0042, 0.003, 0, -0.01),
+        (-0.0575, 1.4065, -42.0, 0.004, 0.003, 0, 0.006),
+        (0.0725, 1.3885, 50.0, 0.004, 0.003, 0, 0.004),
     ];
     let mut locks = Vec::new();
     for (i, &(x, y, root, width, thickness, layer, swing)) in BANGS.iter().enumerate() {
@@ -59,7 +64,9 @@ pub(super) fn front() -> Vec<Placed> {
         let lift = if layer == 0 { 0.0155 } else { 0.0105 };
         // Roots gather at the parting.
         let from = 4.0 + (root - 4.0) * 0.55;
-        let start = on_skull(from, 26.0, lift + 0.001);
+        let root_angle = 4.0 + (root - 4.0) * 1.15;
+        let start = on_skull(root_angle, 5.0, 0.003);
+        let crown = on_skull(from, 24.0, lift);
         let over = on_skull(4.0 + (root - 4.0) * 0.82, 47.0, lift + 0.0045);
         let brow = on_skull(root, 66.0, lift + 0.003);
         // The tip hangs a little before the face, which falls back to the sides.
@@ -75,11 +82,11 @@ pub(super) fn front() -> Vec<Placed> {
         };
         locks.push((
             Lock {
-                guide: vec![start, over, brow, low, tip],
+                guide: vec![start, crown, over, brow, low, tip],
                 width,
                 thickness,
-                root: 0.75,
-                belly: 0.5,
+                root: 0.8,
+                belly: 0.4,
                 twist: vary(i, 1) * 0.12 - swing * 20.0,
                 strip: if layer == 0 { i % 3 } else { 3 },
             },
@@ -120,35 +127,35 @@ pub(super) fn side() -> Vec<Placed> {
         let list: &[(f32, [[f32; 3]; 4], f32, f32, u32)] = &[
             (
                 56.0,
-                [[0.0885, 1.42, 0.05], [0.0905, 1.345, 0.062], [0.092, 1.25, 0.088], [0.078, 1.098, 0.128]],
+                [[0.0915, 1.42, 0.034], [0.0925, 1.345, 0.044], [0.092, 1.25, 0.088], [0.078, 1.098, 0.128]],
                 0.0165,
                 0.0095,
                 0,
             ),
             (
                 70.0,
-                [[0.0965, 1.42, 0.024], [0.101, 1.345, 0.036], [0.104, 1.255, 0.066], [0.1, 1.135, 0.108]],
+                [[0.0985, 1.42, 0.012], [0.102, 1.345, 0.022], [0.104, 1.255, 0.066], [0.1, 1.135, 0.108]],
                 0.0165,
                 0.009,
                 1,
             ),
             (
                 47.0,
-                [[0.0795, 1.42, 0.0675], [0.0815, 1.37, 0.0705], [0.0785, 1.33, 0.07], [0.068, 1.292, 0.0655]],
+                [[0.0845, 1.42, 0.053], [0.0855, 1.37, 0.056], [0.0825, 1.33, 0.057], [0.073, 1.287, 0.0565]],
                 0.0095,
                 0.006,
                 2,
             ),
             (
                 63.0,
-                [[0.0935, 1.42, 0.038], [0.0965, 1.35, 0.05], [0.099, 1.27, 0.078], [0.096, 1.192, 0.1]],
+                [[0.0955, 1.42, 0.026], [0.0975, 1.35, 0.036], [0.099, 1.27, 0.078], [0.096, 1.192, 0.1]],
                 0.0085,
                 0.0055,
                 2,
             ),
             (
                 84.0,
-                [[0.1, 1.42, -0.004], [0.1055, 1.345, 0.004], [0.112, 1.27, 0.022], [0.122, 1.2, 0.05]],
+                [[0.1, 1.42, -0.012], [0.1055, 1.345, -0.006], [0.112, 1.27, 0.022], [0.122, 1.2, 0.05]],
                 0.0185,
                 0.009,
                 0,
@@ -161,8 +168,22 @@ pub(super) fn side() -> Vec<Placed> {
                 1,
             ),
             (
+                116.0,
+                [[0.0935, 1.42, -0.062], [0.0985, 1.35, -0.07], [0.106, 1.28, -0.078], [0.116, 1.19, -0.082]],
+                0.0205,
+                0.009,
+                2,
+            ),
+            (
+                94.0,
+                [[0.09, 1.42, -0.024], [0.0895, 1.35, -0.022], [0.089, 1.285, -0.018], [0.092, 1.205, -0.008]],
+                0.0205,
+                0.007,
+                3,
+            ),
+            (
                 52.0,
-                [[0.084, 1.42, 0.06], [0.088, 1.345, 0.07], [0.09, 1.27, 0.088], [0.082, 1.17, 0.118]],
+                [[0.0885, 1.42, 0.045], [0.0905, 1.345, 0.054], [0.09, 1.27, 0.088], [0.082, 1.17, 0.118]],
                 0.0052,
                 0.004,
                 1,
@@ -172,14 +193,15 @@ pub(super) fn side() -> Vec<Placed> {
             let n = i as u32;
             let from = 6.0 + (root - 6.0) * 0.8;
             let mut guide = vec![
-                on_skull(from * sign, 24.0, 0.0145),
+                on_skull(root * sign, 5.0, 0.003),
+                on_skull(from * sign, 24.0, 0.0135),
                 on_skull((from * 0.3 + root * 0.7) * sign, 48.0, 0.0195),
                 on_skull(root * sign, 72.0, 0.0175),
             ];
             let wave = 0.004 * vary(n, seed);
             for (k, [x, y, z]) in places.iter().enumerate() {
                 let bend = if k % 2 == 0 { wave } else { -wave };
-                guide.push(Vec3::new((x + bend) * sign, *y + 0.006 * vary(n * 7 + k as u32, seed), *z));
+                guide.push(Vec3::new((x + 0.005 + bend) * sign, *y + 0.006 * vary(n * 7 + k as u32, seed), *z));
             }
             locks.push((
                 Lock {
@@ -201,15 +223,15 @@ pub(super) fn side() -> Vec<Placed> {
 /// Where the sheet of back hair hangs: half width and depth behind the body at height `y`.
 fn curtain(y: f32) -> [f32; 2] {
     const TABLE: &[[f32; 3]] = &[
-        [0.86, 0.118, 0.162],
-        [0.95, 0.142, 0.16],
-        [1.05, 0.15, 0.154],
-        [1.15, 0.142, 0.15],
-        [1.22, 0.13, 0.148],
-        [1.28, 0.115, 0.143],
-        [1.34, 0.102, 0.131],
-        [1.4, 0.098, 0.123],
-        [1.44, 0.096, 0.122],
+        [0.86, 0.122, 0.168],
+        [0.95, 0.148, 0.166],
+        [1.05, 0.157, 0.161],
+        [1.15, 0.15, 0.157],
+        [1.22, 0.138, 0.155],
+        [1.28, 0.124, 0.15],
+        [1.34, 0.111, 0.139],
+        [1.4, 0.107, 0.131],
+        [1.44, 0.105, 0.13],
     ];
     let last = TABLE.len() - 2;
     let i = TABLE.iter().rposition(|r| r[0] <= y).unwrap_or(0).min(last);
@@ -220,10 +242,12 @@ fn curtain(y: f32) -> [f32; 2] {
 /// Point of the curtain: `across` -1 (her right) .. 1 (her left).
 fn hang(across: f32, y: f32, lift: f32) -> Vec3 {
     let [half, depth] = curtain(y);
-    let angle = across * 1.15;
-    // Round at the head, flatter below.
-    let flat = smoothstep(1.4, 1.2, y);
-    let round = Vec3::new(angle.sin() / 1.15f32.sin() * half, y, -depth + (1.0 - angle.cos()) * (0.16 - 0.075 * flat));
+    // Round as the head above, flatter below.
+    let high = smoothstep(1.13, 1.46, y);
+    let reach = 1.15 + 0.386 * high;
+    let angle = across * reach;
+    let bulge = 0.085 + 0.034 * high;
+    let round = Vec3::new(angle.sin() / reach.sin() * half, y, -depth + (1.0 - angle.cos()) * bulge);
     round + Vec3::new(angle.sin(), 0.0, -angle.cos()) * lift
 }
 
@@ -245,8 +269,13 @@ pub(super) fn back() -> Vec<Placed> {
             // Long in the middle, shorter to the sides, uneven everywhere.
             let tip_y = tips[0] + (tips[1] - tips[0]) * (0.35 * place.abs() + 0.65 * hash(id, 3, 6));
             let around = 180.0 - across * 88.0;
-            let start = on_skull(around, 8.0 + 4.0 * hash(id, 1, 2), 0.009 + lift * 0.5);
-            let mut guide = vec![start, on_skull(around, 34.0, 0.0125 + lift), on_skull(around, 60.0, 0.0125 + lift)];
+            // Roots dive into the cap round the whorl, so that no ends show.
+            let mut guide = vec![
+                on_skull(around, 4.0 + 3.0 * hash(id, 1, 2), 0.003),
+                on_skull(around, 18.0, 0.0105 + lift * 0.8),
+                on_skull(around, 38.0, 0.0125 + lift),
+                on_skull(around, 62.0, 0.0125 + lift),
+            ];
             let top = 1.425;
             let steps = (((top - tip_y) / 0.075).round() as u32).max(3);
             let phase = hash(id, 9, 4) * 6.3;

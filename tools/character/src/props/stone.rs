@@ -8,7 +8,7 @@ use crate::mesh::Part;
 use crate::skeleton::{Skeleton, blend};
 
 /// Middle of the hair-pin, on the bangs over her left temple.
-pub(super) const PIN: Vec3 = Vec3::new(0.0735, 1.4865, 0.0705);
+pub(super) const PIN: Vec3 = Vec3::new(0.0785, 1.487, 0.0745);
 
 /// Axes of the hair-pin: along its bar, up, away from the head.
 pub(super) fn pin_frame() -> [Vec3; 3] {
