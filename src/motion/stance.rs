@@ -15,6 +15,8 @@ pub enum Stance {
     Relaxed,
     /// Upper arms forward, elbows and one knee bent by 90°: shows how joints bend.
     Bend,
+    /// At ease, the left hand held out before the body with its palm up.
+    Offer,
 }
 
 /// A bone and its turn: degrees about the character's left (+X), up (+Y) and front (+Z).
@@ -45,20 +47,29 @@ const BEND: &[Turn] = &[
     (HumanBone::LeftLowerLeg, [90.0, 0.0, 0.0]),
 ];
 
+/// What the left arm of [`Stance::Offer`] does instead of [`RELAXED`].
+const OFFER: &[Turn] = &[
+    (HumanBone::Head, [5.0, 11.0, -3.0]),
+    (HumanBone::LeftUpperArm, [0.0, -8.0, -58.0]),
+    (HumanBone::LeftLowerArm, [-62.0, -82.0, 0.0]),
+    (HumanBone::LeftHand, [-52.0, 0.0, 0.0]),
+];
+
 /// Fingers of a relaxed hand, degrees of curl at the root, in the middle and at the tip.
 const CURL: [f32; 3] = [14.0, 20.0, 14.0];
 
 impl Stance {
     /// All stances.
-    pub const ALL: &'static [Self] = &[Self::Rest, Self::Relaxed, Self::Bend];
+    pub const ALL: &'static [Self] = &[Self::Rest, Self::Relaxed, Self::Bend, Self::Offer];
 
-    /// Its name: `rest`, `relaxed`, `bend`.
+    /// Its name: `rest`, `relaxed`, `bend`, `offer`.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             Self::Rest => "rest",
             Self::Relaxed => "relaxed",
             Self::Bend => "bend",
+            Self::Offer => "offer",
         }
     }
 
@@ -72,8 +83,10 @@ impl Stance {
         match self {
             Self::Rest => Vec::new(),
             Self::Bend => BEND.to_vec(),
-            Self::Relaxed => {
-                let mut turns = RELAXED.to_vec();
+            Self::Relaxed | Self::Offer => {
+                let held: &[Turn] = if self == Self::Offer { OFFER } else { &[] };
+                let mut turns = held.to_vec();
+                turns.extend(RELAXED.iter().filter(|(bone, _)| held.iter().all(|(b, _)| b != bone)));
                 for bone in HumanBone::ALL {
                     let name = bone.name();
                     let sign = if name.starts_with("left") { -1.0 } else { 1.0 };

@@ -270,7 +270,8 @@ fn material(m: &Material, textures: &BTreeMap<&str, usize>) -> Value {
         value["alphaCutoff"] = json!(cutoff);
     }
     if !m.extras.is_empty() {
-        let maps: Map<String, Value> = m.extras.iter().map(|(usage, t)| ((*usage).to_owned(), info(t))).collect();
+        let mut maps: Map<String, Value> = m.extras.iter().map(|(usage, t)| ((*usage).to_owned(), info(t))).collect();
+        maps.insert("rampRow".to_owned(), json!(m.ramp_row));
         value["extras"] = json!({ "hikage": maps });
     }
     value["pbrMetallicRoughness"] = pbr;

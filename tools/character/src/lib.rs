@@ -19,6 +19,7 @@ pub mod mesh;
 pub mod model;
 pub mod picture;
 pub mod props;
+mod ramp;
 pub mod skeleton;
 mod vrm;
 
@@ -34,6 +35,7 @@ pub fn build() -> Model {
     head::add(&mut model);
     hair::add(&mut model);
     props::add(&mut model);
+    ramp::add(&mut model);
     model
 }
 

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Parser;
+use hikage_character::head::sdf;
 
 /// Writes the built-in character as a VRM 1.0 file.
 #[derive(Parser)]
@@ -11,7 +12,7 @@ struct Args {
     /// File to write.
     #[arg(short, long, default_value = "hikage.vrm")]
     output: PathBuf,
-    /// Write her textures into this folder too.
+    /// Write her textures into this folder too, and the keys of her face's shadow with their source.
     #[arg(long, value_name = "DIR")]
     textures: Option<PathBuf>,
 }
@@ -24,6 +25,10 @@ fn main() -> std::io::Result<()> {
         std::fs::create_dir_all(folder)?;
         for texture in &model.textures {
             std::fs::write(folder.join(format!("{}.png", texture.name)), (texture.paint)().png())?;
+        }
+        std::fs::write(folder.join("face.sdf.toml"), sdf::SOURCE)?;
+        for angle in sdf::angles() {
+            std::fs::write(folder.join(format!("face_sdf_{angle:03}.png")), sdf::mask(angle).png())?;
         }
     }
     Ok(())

@@ -95,6 +95,8 @@ pub struct Material {
     pub scroll: [f32; 2],
     /// Textures that MToon has no place for, by the name of their use. Kept in `extras` for Hikage's own looks.
     pub extras: BTreeMap<&'static str, &'static str>,
+    /// Row of the ramps, from above.
+    pub ramp_row: usize,
 }
 
 impl Default for Material {
@@ -119,6 +121,7 @@ impl Default for Material {
             rim: None,
             scroll: [0.0; 2],
             extras: BTreeMap::new(),
+            ramp_row: 0,
         }
     }
 }

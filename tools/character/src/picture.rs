@@ -77,6 +77,23 @@ impl Picture {
     }
 }
 
+/// A map of part numbers in the red channel: 1, and the number of each shape inside it. Its edges are hard, because
+/// numbers do not mix.
+#[must_use]
+pub fn part_ids(shapes: &[(Path, u8)]) -> Picture {
+    const SIZE: u32 = 512;
+    let mut c = Canvas::new(SIZE, SIZE, Some(0x010000));
+    for (path, number) in shapes {
+        let paint = Paint {
+            shader: Shader::SolidColor(Color::from_rgba8(*number, 0, 0, 255)),
+            anti_alias: false,
+            ..Paint::default()
+        };
+        c.pixmap.fill_path(path, &paint, FillRule::Winding, c.scale, None);
+    }
+    c.finish()
+}
+
 /// A canvas in UV units: (0, 0) upper left, (1, 1) lower right, whatever the size in pixels. Colours are sRGB
 /// `0xRRGGBB`; widths are UV units of the picture's width.
 pub struct Canvas {

@@ -4,9 +4,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::LazyLock;
 
 use glam::Vec3;
-use hikage_character::head::lids;
+use hikage_character::head::{lids, sdf};
 use hikage_character::mesh::{Part, Vertex};
 use hikage_character::model::Model;
+use hikage_character::picture::Picture;
 
 static MODEL: LazyLock<Model> = LazyLock::new(hikage_character::build);
 
@@ -247,5 +248,47 @@ fn the_presets_of_vrm_are_there() {
         "blinkRight", "lookUp", "lookDown", "lookLeft", "lookRight", "neutral",
     ] {
         assert!(names.contains(name), "{name} is missing");
+    }
+}
+
+/// A threshold map can hold one border for each pixel only: what has gone dark stays dark.
+#[test]
+fn the_lit_part_of_the_face_only_shrinks() {
+    let masks: Vec<_> = (0..=180).step_by(2).map(|angle| (angle, sdf::mask(angle as f32))).collect();
+    let lit = |mask: &Picture| mask.rgba.iter().filter(|p| p[0] > 127).count();
+    let all = masks[0].1.rgba.len();
+    assert!(lit(&masks[0].1) > all * 9 / 10, "light from the front leaves the face dark");
+    assert_eq!(lit(&masks[90].1), 0, "light from behind reaches the face");
+    for pair in masks.windows(2) {
+        let [(from, before), (to, after)] = pair else { unreachable!("windows of two") };
+        let grown: Vec<usize> = (0..all).filter(|i| after.rgba[*i][0] > 127 && before.rgba[*i][0] < 128).collect();
+        let place = grown.first().map(|i| (i % before.width as usize, i / before.width as usize));
+        assert!(grown.is_empty(), "{} pixels light up again from {from} to {to} degrees, first {place:?}", grown.len());
+    }
+}
+
+#[test]
+fn every_texture_is_used_and_every_name_known() {
+    let known: BTreeSet<&str> = MODEL.textures.iter().map(|t| t.name).collect();
+    assert_eq!(known.len(), MODEL.textures.len(), "two textures share a name");
+    let mut used = BTreeSet::new();
+    for m in &MODEL.materials {
+        let matcap = m.matcap.map(|(name, _)| name);
+        used.extend(
+            [m.texture, m.shade_texture, m.normal_map, m.emission_texture, m.outline_mask, matcap]
+                .into_iter()
+                .flatten(),
+        );
+        used.extend(m.extras.values().copied());
+        assert!(MODEL.parts.iter().any(|p| p.material == m.name), "no part has the material {}", m.name);
+    }
+    assert_eq!(used, known);
+    for part in &MODEL.parts {
+        assert!(
+            MODEL.materials.iter().any(|m| m.name == part.material),
+            "{}: no material {}",
+            part.name,
+            part.material
+        );
     }
 }

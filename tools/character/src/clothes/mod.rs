@@ -46,6 +46,7 @@ fn materials(model: &mut Model) {
     model.textures.extend([
         texture("blouse", paint::blouse as fn() -> _),
         texture("jacket", paint::jacket),
+        texture("jacket_part_id", paint::jacket_part_id),
         texture("fur", paint::fur),
         texture("fur_normal", paint::fur_normal),
         texture("skirt", paint::skirt),
@@ -71,7 +72,7 @@ fn materials(model: &mut Model) {
     };
     model.materials.extend([
         cloth("Cloth_Blouse", "blouse", 0xc2bde6, 0x4a4674),
-        cloth("Jacket", "jacket", 0x9a88c8, 0x14142c),
+        Material { extras: [("partId", "jacket_part_id")].into(), ..cloth("Jacket", "jacket", 0x9a88c8, 0x14142c) },
         Material { name: "Jacket_Lining", color: srgba(0xe8a33d), shade: srgb(0xb0603a), ..Material::default() },
         fur("Jacket_Fur"),
         fur("Jacket_Cuff"),

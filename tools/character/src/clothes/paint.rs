@@ -2,7 +2,7 @@
 
 use glam::{Vec2, Vec3};
 
-use crate::picture::{Canvas, Picture, curve, ellipse, noise, polyline, rgb, smoothstep};
+use crate::picture::{Canvas, Picture, curve, ellipse, noise, part_ids, polyline, rgb, smoothstep};
 
 fn mix(a: Vec3, b: Vec3, t: f32) -> Vec3 {
     a + (b - a) * t.clamp(0.0, 1.0)
@@ -34,6 +34,21 @@ pub(super) fn blouse() -> Picture {
         &[(0.0, 0xc4bce2, 0.8), (1.0, 0xe4def2, 0.0)],
     );
     c.finish()
+}
+
+/// Piping of the jacket: front edge and hem.
+fn piping() -> [tiny_skia::Path; 2] {
+    [square(0.607, 0.0, 0.63, 1.0), square(0.0, 0.957, 0.63, 0.975)]
+}
+
+/// Buttons of the jacket.
+const BUTTONS: [Vec2; 3] = [Vec2::new(0.57, 0.62), Vec2::new(0.57, 0.74), Vec2::new(0.57, 0.86)];
+
+/// Numbers of the parts of the jacket in the red channel: 1 cloth, 2 piping, 3 buttons.
+pub(super) fn jacket_part_id() -> Picture {
+    let buttons = BUTTONS.map(|at| (ellipse(at, Vec2::new(0.012, 0.015)), 3));
+    let shapes: Vec<_> = piping().map(|path| (path, 2)).into_iter().chain(buttons).collect();
+    part_ids(&shapes)
 }
 
 /// Jacket: torso on the left from the back seam to the front edge, sleeve on the right.
@@ -77,12 +92,12 @@ pub(super) fn jacket() -> Picture {
         );
     }
     // Piping along the front edge and the hem.
-    c.fill(&square(0.607, 0.0, 0.63, 1.0), 0xe8a33d, 1.0);
+    for piping in piping() {
+        c.fill(&piping, 0xe8a33d, 1.0);
+    }
     c.fill(&square(0.6, 0.0, 0.607, 1.0), 0x252a4c, 1.0);
-    c.fill(&square(0.0, 0.957, 0.63, 0.975), 0xe8a33d, 1.0);
     c.fill(&square(0.0, 0.95, 0.63, 0.957), 0x252a4c, 1.0);
-    for i in 0..3 {
-        let at = Vec2::new(0.57, 0.62 + 0.12 * i as f32);
+    for at in BUTTONS {
         c.fill(&ellipse(at, Vec2::new(0.012, 0.015)), 0x7a4a1c, 1.0);
         c.fill(&ellipse(at - Vec2::splat(0.002), Vec2::new(0.009, 0.0115)), 0xe2b04a, 1.0);
         c.fill(&ellipse(at - Vec2::splat(0.005), Vec2::new(0.003, 0.004)), 0xfff0c0, 1.0);

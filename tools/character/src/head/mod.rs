@@ -8,6 +8,7 @@ mod face;
 mod materials;
 mod mouth;
 mod paint;
+pub mod sdf;
 pub mod shape;
 mod state;
 

@@ -4,7 +4,7 @@ use glam::{Vec2, Vec3};
 
 use super::state::{CORNERS, Eye, MOUTH_Y, Mouth};
 use super::{UV_METRES, UV_TOP};
-use crate::picture::{Canvas, Picture, curve, ellipse, hash, noise, polyline, rgb, smoothstep};
+use crate::picture::{Canvas, Picture, curve, ellipse, hash, noise, part_ids, polyline, rgb, smoothstep};
 
 const SIZE: u32 = 2048;
 
@@ -121,15 +121,8 @@ pub(super) fn highlight() -> Picture {
 
 /// Numbers of the parts of the face in the red channel: 1 skin, 2 lips, 3 ears.
 pub(super) fn part_id() -> Picture {
-    let mut c = Canvas::new(512, 512, Some(0x010000));
-    c.fill(&ellipse(at(0.0, MOUTH_Y), radii(0.0135, 0.006)), 0x020000, 1.0);
-    for side in [-1.0, 1.0] {
-        c.fill(&ellipse(Vec2::new(0.5 + side * 0.36, 0.9), Vec2::new(0.05, 0.08)), 0x030000, 1.0);
-    }
-    let mut picture = c.finish();
-    // Numbers do not mix: antialiased edges are rounded to the nearer one.
-    picture.rgba.iter_mut().for_each(|p| *p = [p[0], 0, 0, 255]);
-    picture
+    let ear = |side: f32| (ellipse(Vec2::new(0.5 + side * 0.36, 0.9), Vec2::new(0.05, 0.08)), 3);
+    part_ids(&[(ellipse(at(0.0, MOUTH_Y), radii(0.0135, 0.006)), 2), ear(-1.0), ear(1.0)])
 }
 
 fn mix(a: Vec3, b: Vec3, t: f32) -> Vec3 {
