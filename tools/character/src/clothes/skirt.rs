@@ -71,12 +71,18 @@ fn chains(model: &mut Model) -> Vec<[usize; 2]> {
         .collect()
 }
 
-/// Hips at the waist; below, the two nearest chains.
+/// Hips at the waist; below, the two nearest chains, and in front the thigh, which lifts the cloth.
 fn weights(skeleton: &Skeleton, bones: &[[usize; 2]], p: Vec3) -> Weights {
-    let free = smoothstep(0.945, 0.86, p.y);
     let lower = smoothstep(0.84, 0.76, p.y);
-    let mut list = vec![(skeleton.find("hips"), 1.0 - free)];
     let angle = p.x.atan2(p.z);
+    let lap = 0.66 * smoothstep(0.95, 0.8, p.y) * smoothstep(2.3, 0.6, angle.abs());
+    let left = smoothstep(-0.045, 0.045, p.x);
+    let free = smoothstep(0.945, 0.86, p.y) * (1.0 - lap);
+    let mut list = vec![
+        (skeleton.find("leftUpperLeg"), lap * left),
+        (skeleton.find("rightUpperLeg"), lap * (1.0 - left)),
+    ];
+    list.push((skeleton.find("hips"), 1.0 - free - lap));
     for ((_, degrees), [a, b]) in CHAINS.iter().zip(bones) {
         let away = (angle - degrees.to_radians() + 3.0 * PI).rem_euclid(TAU) - PI;
         let near = (1.0 - away.abs() / (PI / 4.0)).max(0.0);
