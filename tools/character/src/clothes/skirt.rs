@@ -78,10 +78,8 @@ fn weights(skeleton: &Skeleton, bones: &[[usize; 2]], p: Vec3) -> Weights {
     let lap = 0.66 * smoothstep(0.95, 0.8, p.y) * smoothstep(2.3, 0.6, angle.abs());
     let left = smoothstep(-0.045, 0.045, p.x);
     let free = smoothstep(0.945, 0.86, p.y) * (1.0 - lap);
-    let mut list = vec![
-        (skeleton.find("leftUpperLeg"), lap * left),
-        (skeleton.find("rightUpperLeg"), lap * (1.0 - left)),
-    ];
+    let mut list =
+        vec![(skeleton.find("leftUpperLeg"), lap * left), (skeleton.find("rightUpperLeg"), lap * (1.0 - left))];
     list.push((skeleton.find("hips"), 1.0 - free - lap));
     for ((_, degrees), [a, b]) in CHAINS.iter().zip(bones) {
         let away = (angle - degrees.to_radians() + 3.0 * PI).rem_euclid(TAU) - PI;
