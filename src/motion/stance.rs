@@ -23,19 +23,28 @@ pub enum Stance {
 type Turn = (HumanBone, [f32; 3]);
 
 const RELAXED: &[Turn] = &[
-    (HumanBone::Spine, [1.0, 2.0, -1.5]),
-    (HumanBone::Chest, [-1.0, 2.0, 2.0]),
-    (HumanBone::UpperChest, [-1.0, 1.0, 1.0]),
-    (HumanBone::Neck, [1.0, 4.0, -1.5]),
-    (HumanBone::Head, [2.0, 7.0, -3.5]),
+    // The weight is on the right leg: hips and shoulders lean against each other.
+    (HumanBone::Hips, [0.0, -4.0, -3.5]),
+    (HumanBone::Spine, [1.0, 2.0, 2.5]),
+    (HumanBone::Chest, [-1.0, 2.0, 2.5]),
+    (HumanBone::UpperChest, [-1.0, 1.0, 1.5]),
+    (HumanBone::Neck, [1.0, 3.0, -2.5]),
+    (HumanBone::Head, [2.0, 4.0, -4.5]),
     (HumanBone::LeftShoulder, [0.0, 0.0, -5.0]),
-    (HumanBone::LeftUpperArm, [6.0, 4.0, -66.0]),
-    (HumanBone::LeftLowerArm, [0.0, -14.0, -5.0]),
+    (HumanBone::LeftUpperArm, [8.0, 6.0, -68.0]),
+    (HumanBone::LeftLowerArm, [0.0, -24.0, -4.0]),
     (HumanBone::LeftHand, [0.0, -4.0, -6.0]),
-    (HumanBone::RightShoulder, [0.0, 0.0, 5.0]),
-    (HumanBone::RightUpperArm, [4.0, -2.0, 68.0]),
-    (HumanBone::RightLowerArm, [0.0, 20.0, 5.0]),
+    (HumanBone::LeftThumbMetacarpal, [0.0, 16.0, -8.0]),
+    (HumanBone::RightShoulder, [0.0, 0.0, 4.0]),
+    (HumanBone::RightUpperArm, [6.0, -6.0, 67.0]),
+    (HumanBone::RightLowerArm, [0.0, 26.0, 4.0]),
     (HumanBone::RightHand, [0.0, 5.0, 6.0]),
+    (HumanBone::RightThumbMetacarpal, [0.0, -16.0, 8.0]),
+    (HumanBone::RightUpperLeg, [1.0, -3.0, 5.5]),
+    (HumanBone::RightFoot, [-1.0, -6.0, -2.0]),
+    (HumanBone::LeftUpperLeg, [-10.0, 12.0, 2.0]),
+    (HumanBone::LeftLowerLeg, [17.0, 0.0, 0.0]),
+    (HumanBone::LeftFoot, [-7.0, 4.0, 1.5]),
 ];
 
 const BEND: &[Turn] = &[
@@ -56,7 +65,9 @@ const OFFER: &[Turn] = &[
 ];
 
 /// Fingers of a relaxed hand, degrees of curl at the root, in the middle and at the tip.
-const CURL: [f32; 3] = [14.0, 20.0, 14.0];
+const CURL: [f32; 3] = [16.0, 24.0, 18.0];
+/// Shares of that: the little finger curls most.
+const FINGERS: [(&str, f32); 4] = [("Index", 0.7), ("Middle", 0.9), ("Ring", 1.1), ("Little", 1.25)];
 
 impl Stance {
     /// All stances.
@@ -90,10 +101,10 @@ impl Stance {
                 for bone in HumanBone::ALL {
                     let name = bone.name();
                     let sign = if name.starts_with("left") { -1.0 } else { 1.0 };
-                    let finger = ["Index", "Middle", "Ring", "Little"].iter().any(|f| name.contains(f));
+                    let finger = FINGERS.iter().find(|(f, _)| name.contains(f));
                     let joint = ["Proximal", "Intermediate", "Distal"].iter().position(|j| name.ends_with(j));
-                    if let (true, Some(joint)) = (finger, joint) {
-                        turns.push((*bone, [0.0, 0.0, sign * CURL.get(joint).copied().unwrap_or(0.0)]));
+                    if let (Some((_, share)), Some(joint)) = (finger, joint) {
+                        turns.push((*bone, [0.0, 0.0, sign * share * CURL.get(joint).copied().unwrap_or(0.0)]));
                     }
                 }
                 turns

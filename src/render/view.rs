@@ -6,6 +6,7 @@ use super::{MAX_TEXTURE_SIDE, Output};
 use crate::{
     Error, Result,
     color::Srgb,
+    motion::Pose,
     scene::{Camera, Framing, HumanBone, Image, Lights, Scene},
 };
 
@@ -115,13 +116,19 @@ impl Channel {
 }
 
 impl View {
-    /// A view of a character: `yaw_rad` moves the camera around it, positive towards the character's left (+X).
+    /// A view of a character at rest: `yaw_rad` moves the camera around it, positive towards the character's left (+X).
     ///
     /// Head and hips come from the humanoid bones, else from nodes of that name, else from the bounding box.
     #[must_use]
     pub fn framed(scene: &Scene, framing: Framing, yaw_rad: f32, size: [u32; 2]) -> Self {
-        let (low, high) = bounds(scene);
-        let world = scene.rest_world_from_nodes();
+        Self::framed_pose(scene, &Pose::rest(scene), framing, yaw_rad, size)
+    }
+
+    /// [`View::framed`] of a character in a pose. Morphs do not count.
+    #[must_use]
+    pub fn framed_pose(scene: &Scene, pose: &Pose, framing: Framing, yaw_rad: f32, size: [u32; 2]) -> Self {
+        let world = scene.world_from_nodes(&pose.locals);
+        let (low, high) = bounds(scene, &world);
         let joint = |bone, name| Some(world.get(joint_node(scene, bone, name)?)?.w_axis.truncate());
         let head = joint(HumanBone::Head, "head");
         let hips = joint(HumanBone::Hips, "hips").or_else(|| joint(HumanBone::Hips, "pelvis"));
@@ -138,7 +145,7 @@ impl View {
         let aspect = size[0] as f32 / size[1].max(1) as f32;
         let (target, visible_height, visible_width) = match framing {
             Framing::Face => (head_center, head_height * 1.15, head_height * 1.15),
-            Framing::Portrait => (head_center - Vec3::Y * head_height * 0.2, head_height * 2.0, head_height * 2.0),
+            Framing::Portrait => (head_center - Vec3::Y * head_height * 0.25, head_height * 1.75, head_height * 1.75),
             Framing::Bust => {
                 let above = top + head_height * 0.1;
                 let below = hips.map_or(head_y - head_height * 2.2, |h| h.y).min(head_y - head_height * 0.5);
@@ -205,9 +212,8 @@ fn radius(low: Vec3, high: Vec3, axis: Vec3) -> f32 {
     (axis - low).max(high - axis).with_y(0.0).max_element()
 }
 
-/// Bounding box at rest, world space.
-fn bounds(scene: &Scene) -> (Vec3, Vec3) {
-    let world = scene.rest_world_from_nodes();
+/// Bounding box in world space, with the nodes at `world`.
+fn bounds(scene: &Scene, world: &[Mat4]) -> (Vec3, Vec3) {
     let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
     for (node, mesh) in scene.mesh_nodes() {
         let skin = scene.nodes[node].skin.and_then(|s| scene.skins.get(s));

@@ -10,6 +10,7 @@ mod inspect;
 mod output;
 mod render;
 mod setup;
+mod sheet;
 mod shot;
 mod spinner;
 
@@ -48,6 +49,8 @@ Colours are left out where NO_COLOR is set or the output is no terminal.";
 enum Command {
     /// Draw a model into a PNG.
     Render(render::Args),
+    /// Draw a character from all sides and with every expression, on one sheet.
+    Sheet(sheet::Args),
     /// Tell what a model, an image or a shader holds, and what will look wrong. Needs no GPU.
     Inspect(inspect::Args),
     /// Measure the time of a frame, against the same meshes drawn unlit.
@@ -94,6 +97,7 @@ const ERRORS_ONLY: tracing_subscriber::filter::LevelFilter = tracing_subscriber:
 fn run(command: Command) -> Result<(), Failure> {
     match command {
         Command::Render(args) => render::run(&args),
+        Command::Sheet(args) => sheet::run(&args),
         Command::Inspect(args) => inspect::run(&args),
         Command::Bench(args) => bench::run(&args),
         Command::Adapters(args) => adapters::run(&args),

@@ -5,8 +5,9 @@ use std::time::Instant;
 
 use clap::ValueEnum;
 use glam::Vec3;
-use hikage::motion::Stance;
+use hikage::motion::{Pose, Stance};
 use hikage::picture::{encode_png, write_atomic};
+use hikage::scene::Scene;
 use hikage::{Background, Channel, GpuMemory, Output, Renderer, View};
 use serde::Serialize;
 
@@ -62,7 +63,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "NAME=W,...", value_delimiter = ',', value_parser = args::expression)]
     expression: Vec<(String, f32)>,
     /// Pose of the humanoid [default: rest; relaxed for the built-in character].
-    #[arg(long, value_name = "rest|relaxed|bend", value_parser = args::stance)]
+    #[arg(long, value_name = "rest|relaxed|bend|offer", value_parser = args::stance)]
     pose: Option<Stance>,
     /// File with camera, light and background; see below.
     #[arg(long, value_name = "SHOT.json")]
@@ -174,7 +175,13 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     spinner.step("loading the model");
     let mut scene = timed(&mut ms.load, || setup::load(args.model.as_deref()))?;
     show_warnings(&scene.warnings);
-    let view = view(args, &shot, &scene)?;
+    let at_ease = if args.model.is_none() {
+        Stance::Relaxed
+    } else {
+        Stance::Rest
+    };
+    let pose = setup::pose(&scene, args.pose.unwrap_or(at_ease), &args.expression)?;
+    let view = view(args, &shot, &scene, &pose)?;
 
     spinner.step("opening the adapter");
     let gpu = timed(&mut ms.adapter, || setup::gpu(args.adapter.as_deref()))?;
@@ -183,12 +190,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let mut renderer = timed(&mut ms.pipelines, || Renderer::with_output(&gpu, output))?;
     spinner.step("uploading");
     let mut gpu_scene = timed(&mut ms.upload, || renderer.upload_and_empty_images(&mut scene))?;
-    let at_ease = if args.model.is_none() {
-        Stance::Relaxed
-    } else {
-        Stance::Rest
-    };
-    setup::pose(&gpu, &mut gpu_scene, &scene, args.pose.unwrap_or(at_ease), &args.expression)?;
+    gpu_scene.set_pose(&gpu, &scene, &pose);
     spinner.step("drawing");
     let picture = timed(&mut ms.first_frame, || renderer.render(&mut gpu_scene, &view))?;
     let png = timed(&mut ms.encode, || encode_png(&picture))?;
@@ -216,10 +218,10 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
 }
 
 /// What is drawn: the framing, then the shot, then the options of the command line.
-fn view(args: &Args, shot: &Shot, scene: &hikage::scene::Scene) -> Result<View, Failure> {
+fn view(args: &Args, shot: &Shot, scene: &Scene, pose: &Pose) -> Result<View, Failure> {
     let size = args.size.or(shot.size).unwrap_or([1024, 1024]);
     let framing = args.view.unwrap_or(ViewName::Portrait).into();
-    let framed = View::framed(scene, framing, args.yaw.unwrap_or(0.0).to_radians(), size);
+    let framed = View::framed_pose(scene, pose, framing, args.yaw.unwrap_or(0.0).to_radians(), size);
     let mut view = framed.clone();
     view.background = Background::Color(hikage::color::Srgb([0x80; 3]));
     shot.apply(&mut view).map_err(|what| {
@@ -288,7 +290,8 @@ fn timed<T>(ms: &mut f64, work: impl FnOnce() -> T) -> T {
     result
 }
 
-fn png_path(text: &str) -> Result<PathBuf, String> {
+/// A name for a picture.
+pub(crate) fn png_path(text: &str) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
     let is_png = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("png"));
     if is_png {

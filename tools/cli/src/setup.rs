@@ -4,9 +4,9 @@ use std::fs::File;
 use std::io::Read as _;
 use std::path::Path;
 
+use hikage::Gpu;
 use hikage::motion::{Pose, Stance};
 use hikage::scene::Scene;
-use hikage::{Gpu, GpuScene};
 
 use crate::deadline;
 use crate::failure::Failure;
@@ -50,17 +50,10 @@ pub(crate) fn load(model: Option<&Path>) -> Result<Scene, Failure> {
 /// Name of the built-in character's file.
 pub(crate) const BUILT_IN: &str = "hikage.vrm";
 
-/// Brings the model on the GPU into a stance with these expressions.
-pub(crate) fn pose(
-    gpu: &Gpu,
-    gpu_scene: &mut GpuScene,
-    scene: &Scene,
-    stance: Stance,
-    expressions: &[(String, f32)],
-) -> Result<(), Failure> {
+/// The model in a stance with these expressions.
+pub(crate) fn pose(scene: &Scene, stance: Stance, expressions: &[(String, f32)]) -> Result<Pose, Failure> {
     let mut pose = Pose::rest(scene);
     pose.set_stance(scene, stance);
     pose.set_expressions(scene, expressions)?;
-    gpu_scene.set_pose(gpu, scene, &pose);
-    Ok(())
+    Ok(pose)
 }

@@ -43,7 +43,7 @@ fn materials(model: &mut Model) {
         Material {
             name: "Body_Skin",
             texture: Some("body_skin"),
-            shade: srgb(0xf0bcb6),
+            shade: srgb(0xf3cac0),
             shade_texture: Some("body_skin"),
             toony: 0.97,
             outline: 0.0009,

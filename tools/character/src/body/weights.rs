@@ -28,7 +28,7 @@ fn side(x: f32) -> &'static str {
 }
 
 fn arm_list(skeleton: &Skeleton, p: Vec3) -> Vec<(usize, f32)> {
-    let shares = chain(p.x.abs(), [0.108, 0.332, 0.537], [0.03, 0.036, 0.018]);
+    let shares = chain(p.x.abs(), [0.112, 0.332, 0.537], [0.052, 0.036, 0.018]);
     let bone = |name: &str| skeleton.find(&format!("{}{name}", side(p.x)));
     ["Shoulder", "UpperArm", "LowerArm", "Hand"].iter().map(|n| bone(n)).zip(shares).collect()
 }

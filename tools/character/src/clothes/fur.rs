@@ -75,7 +75,8 @@ pub(super) fn collar(skeleton: &Skeleton) -> Part {
 
     // Rows of tufts round the tube: angle from away (0) over up (90) inwards; how they lie.
     let rows: &[(f32, u32, f32, f32)] = &[
-        (-74.0, 36, 1.0, 0.0),
+        (-112.0, 32, 0.9, 0.5),
+        (-76.0, 36, 1.0, 0.0),
         (-40.0, 38, 1.14, 0.5),
         (-8.0, 38, 1.2, 0.0),
         (24.0, 38, 1.14, 0.5),
@@ -124,10 +125,7 @@ fn nearest(p: Vec3) -> f32 {
 /// Normals are those of the whole form, so that light falls on fur as on one soft body.
 fn soften(part: &mut Part, axis: impl Fn(Vec3) -> Vec3) {
     for v in &mut part.vertices {
-        let form = (v.position - axis(v.position)).normalize_or(Vec3::Y);
-        let mixed = v.normal.lerp(form, 0.8).normalize_or(form);
-        // Never against the surface itself.
-        v.normal = if mixed.dot(v.normal) > 0.4 { mixed } else { v.normal };
+        v.normal = (v.position - axis(v.position)).normalize_or(Vec3::Y);
     }
 }
 

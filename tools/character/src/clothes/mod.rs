@@ -7,7 +7,7 @@ mod skirt;
 mod tuft;
 
 use crate::mesh::Part;
-use crate::model::{Material, Model, Texture, srgb, srgba};
+use crate::model::{Alpha, Material, Model, Texture, srgb, srgba};
 
 /// Adds the clothes.
 pub fn add(model: &mut Model) {
@@ -65,7 +65,8 @@ fn materials(model: &mut Model) {
         texture: Some("fur"),
         shade: srgb(0xcdbce0),
         shade_texture: Some("fur"),
-        // Tufts are leaves without a back.
+        alpha: Alpha::Mask(0.5),
+        // Tufts are cards.
         double_sided: true,
         extras: [("detailNormal", "fur_normal")].into(),
         ..Material::default()

@@ -2,7 +2,7 @@
 
 use glam::{Vec2, Vec3};
 
-use crate::picture::{Canvas, Picture, curve, ellipse, noise, part_ids, polyline, rgb, smoothstep};
+use crate::picture::{Canvas, Picture, curve, ellipse, hash, noise, part_ids, polyline, rgb, smoothstep};
 
 fn mix(a: Vec3, b: Vec3, t: f32) -> Vec3 {
     a + (b - a) * t.clamp(0.0, 1.0)
@@ -17,13 +17,30 @@ pub(super) fn blouse() -> Picture {
     let mut c = Canvas::new(1024, 1024, Some(0xfaf7fb));
     for i in 0..9 {
         let x = 0.36 + 0.035 * i as f32;
-        let fold = [Vec2::new(x, 0.3), Vec2::new(x + 0.006, 0.6), Vec2::new(0.5 + (x - 0.5) * 0.8, 0.98)];
-        c.stroke(&curve(&fold, false), 0xd7d2ec, 0.7, 0.004);
+        let fold = [Vec2::new(x, 0.08), Vec2::new(x + 0.004, 0.55), Vec2::new(0.5 + (x - 0.5) * 0.8, 0.98)];
+        c.stroke(&curve(&fold, false), 0xd7d2ec, 0.7, 0.003);
     }
     c.fill(&square(0.488, 0.07, 0.512, 1.0), 0xefeaf6, 1.0);
     c.stroke(&polyline(&[Vec2::new(0.488, 0.07), Vec2::new(0.488, 1.0)], false), 0xb9b3d8, 0.9, 0.0025);
     for i in 0..7 {
         c.fill(&ellipse(Vec2::new(0.5, 0.17 + 0.12 * i as f32), Vec2::new(0.0055, 0.009)), 0xe8a33d, 1.0);
+    }
+    // What jacket and bust lay in shade, with drawn edges.
+    for side in [-1.0f32, 1.0] {
+        let at = |x: f32, y: f32| Vec2::new(0.5 + side * x, y);
+        let lapel = [
+            at(0.2, 0.07),
+            at(0.08, 0.07),
+            at(0.055, 0.2),
+            at(0.062, 0.36),
+            at(0.066, 0.5),
+            at(0.061, 0.62),
+            at(0.064, 1.0),
+            at(0.2, 1.0),
+        ];
+        c.fill(&polyline(&lapel, true), 0xcdc6e6, 0.85);
+        let bust = [at(0.02, 0.55), at(0.042, 0.545), at(0.068, 0.515), at(0.068, 0.57), at(0.042, 0.568)];
+        c.fill(&curve(&bust, true), 0xcdc6e6, 0.7);
     }
     // The ribbon round the collar.
     c.fill(&square(0.0, 0.042, 1.0, 0.064), 0x2b2f55, 1.0);
@@ -81,15 +98,10 @@ pub(super) fn jacket() -> Picture {
         let fold = [Vec2::new(x, 0.62), Vec2::new(x + 0.02, 0.72), Vec2::new(x + 0.012, 0.83)];
         c.stroke(&curve(&fold, false), 0x2b3058, 0.55, 0.009);
     }
-    for i in 0..7 {
-        let y = 0.42 + 0.035 * i as f32;
-        let x = 0.7 + 0.04 * (i % 3) as f32;
-        c.stroke(
-            &curve(&[Vec2::new(x, y), Vec2::new(x + 0.06, y + 0.012), Vec2::new(x + 0.12, y - 0.004)], false),
-            0x2b3058,
-            0.55,
-            0.008,
-        );
+    for (x, y, long) in [(0.7, 0.45, 0.2), (0.8, 0.5, 0.14), (0.69, 0.545, 0.16), (0.83, 0.6, 0.12)] {
+        let [a, b] = [Vec2::new(x, y), Vec2::new(x + long, y - 0.012)];
+        let sag = |depth: f32| (a + b) * 0.5 + Vec2::new(0.01, depth);
+        c.fill(&curve(&[a, sag(0.008), b, sag(0.026)], true), 0x2b3058, 0.5);
     }
     // Piping along the front edge and the hem.
     for piping in piping() {
@@ -124,20 +136,38 @@ fn fur_height(uv: Vec2) -> f32 {
     0.6 * dome + 0.25 * strokes(uv, 48.0, 21) + 0.15 * strokes(uv, 112.0, 22)
 }
 
-/// Fur: v runs along a tuft from its root, in the shade of its neighbours, to its light tip; a thin line at its edge
-/// parts it from them.
+/// How far inside a strand of its tuft a point lies, in widths of a tuft: below 0 outside. Each tuft ends in five strands
+/// of their own lengths, which part where the tuft is half as long.
+fn inside_strands(uv: Vec2) -> f32 {
+    let (tuft, u) = ((uv.x * 4.0).floor() as u32, (uv.x * 4.0).fract());
+    (0..5u32)
+        .map(|k| {
+            let vary = |seed| hash(tuft * 5 + k, 7, seed) - 0.5;
+            let end = 0.9 - 0.28 * (k as f32 - 2.0).abs() / 2.0 + 0.16 * vary(1);
+            let root = 0.14 + 0.18 * k as f32;
+            let tip = root + 0.1 * vary(2) + 0.05 * (2.0 - k as f32);
+            let t = uv.y / end;
+            let bend = smoothstep(0.3, 1.0, t);
+            0.125 * (1.0 - smoothstep(0.42, 1.0, t)).powf(0.8) - (u - root - (tip - root) * bend).abs()
+        })
+        .fold(f32::MIN, f32::max)
+}
+
+/// Fur: v runs along a tuft from its root, in the shade of its neighbours, to its light tips.
 pub(super) fn fur() -> Picture {
-    let [root, body, light, line] = [0xc9b6d6, 0xece2ec, 0xfffcf8, 0xa892bf].map(rgb);
+    let [root, body, light, line] = [0xdccde2, 0xf1e9f1, 0xfffdfb, 0xc4b0d2].map(rgb);
     Picture::from_fn(1024, 512, |uv| {
         let broad = strokes(uv, 40.0, 21) - 0.5;
         let v = uv.y + broad * 0.3;
-        let mut color = mix(root, body, smoothstep(0.12, 0.42, v));
-        color = mix(color, light, smoothstep(0.4, 0.72, v));
-        let pen = smoothstep(0.78, 0.92, strokes(uv, 72.0, 22));
-        color = mix(color, line, 0.55 * pen * smoothstep(0.85, 0.45, uv.y));
-        let edge = 1.0 - ((uv.x * 4.0).fract() - 0.5).abs() * 2.0;
-        color = mix(color, line, 0.8 * smoothstep(0.16, 0.05, edge) * smoothstep(0.2, 0.45, uv.y));
-        [color.x, color.y, color.z, 1.0]
+        let mut color = mix(root, body, smoothstep(0.1, 0.4, v));
+        color = mix(color, light, smoothstep(0.36, 0.66, v));
+        let pen = smoothstep(0.8, 0.93, strokes(uv, 72.0, 22));
+        color = mix(color, line, 0.5 * pen * smoothstep(0.75, 0.35, uv.y));
+        let inside = inside_strands(uv);
+        // A thin line along the strands, so that one is told from those below.
+        color = mix(color, line, 0.7 * smoothstep(0.05, 0.015, inside) * smoothstep(0.35, 0.55, uv.y));
+        let alpha = (0.5 + inside * 20.0).clamp(0.0, 1.0).max(smoothstep(0.3, 0.26, uv.y));
+        [color.x, color.y, color.z, alpha]
     })
 }
 
@@ -154,7 +184,7 @@ pub(super) fn fur_normal() -> Picture {
 
 /// Skirt: 22 pleats side by side; the fold of each is dark, a pale stripe runs above the hem.
 pub(super) fn skirt() -> Picture {
-    let [light, cloth, deep, stripe] = [0x5d5378, 0x4a4163, 0x2c2546, 0xd9cfe6].map(rgb);
+    let [light, cloth, deep, stripe] = [0x5d5378, 0x4a4163, 0x342c50, 0xd9cfe6].map(rgb);
     Picture::from_fn(2048, 512, |uv| {
         let x = (uv.x * 22.0).fract();
         if uv.y > 0.945 {

@@ -99,7 +99,7 @@ impl Lock {
             dense[i] + (dense[i + 1] - dense[i]) * t
         };
 
-        let stations = ((total / 0.028).ceil() as u32).clamp(7, 17);
+        let stations = ((total / 0.024).ceil() as u32).clamp(14, 22);
         let first = part.vertices.len() as u32;
         let (u0, u1) = (self.strip as f32 * 0.25 + 0.006, self.strip as f32 * 0.25 + 0.244);
         // Stations stand denser where the lock bends, and towards its tip.
@@ -111,7 +111,7 @@ impl Lock {
             } else {
                 0.0
             };
-            effort.push(effort[i] + a.length() * (1.0 + 0.35 * lengths[i] / total) + 0.09 * bend);
+            effort.push(effort[i] + a.length() * (1.0 + 0.35 * lengths[i] / total) + 0.12 * bend);
         }
         for s in 0..stations {
             let want = effort[SAMPLES] * s as f32 / (stations - 1) as f32;

@@ -33,8 +33,8 @@ pub fn add(model: &mut Model) {
             shade_texture: Some("hair_shade"),
             shift: -0.12,
             toony: 0.95,
-            outline: 0.0009,
-            outline_color: srgb(0x4d4577),
+            outline: 0.0007,
+            outline_color: srgb(0x7d74b4),
             matcap: Some(("hair_matcap", [0.55, 0.55, 0.6])),
             extras: BTreeMap::from([("highlightBand", "hair_highlight")]),
             ..Material::default()

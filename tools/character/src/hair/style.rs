@@ -18,10 +18,10 @@ pub(super) fn direction(around: f32, down: f32) -> Vec3 {
 }
 
 /// Hair stands off the head: not at the whorl, most over the crown, metres.
-const VOLUME: f32 = 0.008;
+const VOLUME: f32 = 0.0085;
 
 fn on_skull(around: f32, down: f32, lift: f32) -> Vec3 {
-    skull(direction(around, down), lift + VOLUME * smoothstep(2.0, 34.0, down))
+    skull(direction(around, down), lift + VOLUME * smoothstep(-12.0, 34.0, down))
 }
 
 /// A number in -1..1 that belongs to a lock.
@@ -33,30 +33,28 @@ fn vary(index: u32, seed: u32) -> f32 {
 pub(super) fn front() -> Vec<Placed> {
     // Tip x, tip y, root angle, half width, thickness, layer (0 over, 1 under), sideways swing of the tip.
     const BANGS: &[(f32, f32, f32, f32, f32, u32, f32)] = &[
-        // Upper layer, from her right to her left: clumps of two or three whose tips lean together.
-        (-0.0795, 1.377, -58.0, 0.0125, 0.0066, 0, 0.004),
-        (-0.0675, 1.4005, -47.0, 0.0165, 0.0078, 0, -0.003),
-        (-0.0505, 1.4225, -36.0, 0.0125, 0.007, 0, -0.007),
-        (-0.0265, 1.4215, -22.0, 0.0165, 0.0082, 0, 0.008),
-        (-0.0055, 1.4005, -7.0, 0.0175, 0.0092, 0, 0.004),
-        (0.0085, 1.4245, 6.0, 0.0105, 0.0066, 0, -0.005),
-        (0.0345, 1.4185, 19.0, 0.0165, 0.0082, 0, 0.006),
-        (0.0485, 1.4265, 29.0, 0.0115, 0.007, 0, -0.005),
-        (0.0655, 1.4025, 43.0, 0.0165, 0.0078, 0, 0.003),
-        (0.0785, 1.3745, 56.0, 0.0125, 0.0066, 0, -0.004),
+        // Upper layer, from her right to her left: broad clumps whose tips lean together.
+        (-0.0805, 1.376, -58.0, 0.0145, 0.007, 0, 0.005),
+        (-0.0665, 1.402, -46.0, 0.0185, 0.0084, 0, 0.006),
+        (-0.0445, 1.4255, -33.0, 0.0165, 0.008, 0, -0.006),
+        (-0.0215, 1.4215, -18.0, 0.0175, 0.0088, 0, 0.009),
+        (0.0015, 1.4135, -4.0, 0.0185, 0.0096, 0, 0.006),
+        (0.0235, 1.4275, 12.0, 0.0155, 0.008, 0, -0.008),
+        (0.049, 1.4245, 26.0, 0.0185, 0.0088, 0, 0.008),
+        (0.0675, 1.3985, 42.0, 0.0175, 0.0082, 0, -0.005),
+        (0.0795, 1.3735, 56.0, 0.0135, 0.0068, 0, -0.005),
         // Lower layer, shorter, in the gaps.
-        (-0.0605, 1.4285, -43.0, 0.0135, 0.005, 1, 0.002),
-        (-0.0395, 1.4395, -30.0, 0.0145, 0.005, 1, 0.003),
-        (-0.0175, 1.4375, -16.0, 0.014, 0.005, 1, 0.003),
-        (0.001, 1.4365, -1.0, 0.0135, 0.005, 1, 0.001),
-        (0.0205, 1.4395, 11.0, 0.014, 0.005, 1, -0.002),
-        (0.0425, 1.4385, 24.0, 0.0135, 0.005, 1, -0.003),
-        (0.058, 1.4295, 37.0, 0.0135, 0.005, 1, -0.003),
+        (-0.0575, 1.4355, -41.0, 0.0155, 0.005, 1, 0.004),
+        (-0.0335, 1.4445, -27.0, 0.0155, 0.005, 1, 0.004),
+        (-0.0095, 1.4385, -11.0, 0.015, 0.005, 1, 0.003),
+        (0.0135, 1.4425, 5.0, 0.0145, 0.005, 1, -0.003),
+        (0.0355, 1.4425, 19.0, 0.0155, 0.005, 1, -0.003),
+        (0.0585, 1.4325, 35.0, 0.0155, 0.005, 1, -0.004),
         // Thin strands that break the row.
-        (-0.0145, 1.4145, -16.0, 0.0042, 0.003, 0, 0.009),
-        (0.0255, 1.4075, 16.0, 0.0042, 0.003, 0, -0.01),
-        (-0.0575, 1.4065, -42.0, 0.004, 0.003, 0, 0.006),
-        (0.0725, 1.3885, 50.0, 0.004, 0.003, 0, 0.004),
+        (-0.0125, 1.4095, -14.0, 0.0046, 0.003, 0, 0.012),
+        (0.0145, 1.4175, 10.0, 0.0046, 0.003, 0, -0.008),
+        (-0.0735, 1.391, -51.0, 0.0042, 0.003, 0, 0.006),
+        (0.0735, 1.3875, 50.0, 0.0042, 0.003, 0, 0.004),
     ];
     let mut locks = Vec::new();
     for (i, &(x, y, root, width, thickness, layer, swing)) in BANGS.iter().enumerate() {
@@ -65,14 +63,14 @@ pub(super) fn front() -> Vec<Placed> {
         // Roots gather at the parting.
         let from = 4.0 + (root - 4.0) * 0.55;
         let root_angle = 4.0 + (root - 4.0) * 1.15;
-        let start = on_skull(root_angle, 5.0, 0.003);
-        let crown = on_skull(from, 24.0, lift);
+        let start = on_skull(root_angle, 4.0, 0.008);
+        let crown = on_skull(from, 24.0, lift + 0.002);
         let over = on_skull(4.0 + (root - 4.0) * 0.82, 47.0, lift + 0.0045);
         let brow = on_skull(root, 66.0, lift + 0.003);
         // The tip hangs a little before the face, which falls back to the sides.
-        let depth = 0.1005 - 7.2 * x * x - if layer == 0 { 0.0 } else { 0.0035 };
+        let depth = 0.0955 - 6.6 * x * x - if layer == 0 { 0.0 } else { 0.0025 };
         let tip = Vec3::new(x, y, depth);
-        let low = brow.lerp(tip, 0.55) + Vec3::new(-swing * 0.9, 0.0, 0.0035);
+        let low = brow.lerp(tip, 0.55) + Vec3::new(-swing * 0.9, 0.0, 0.0055);
         let chain = if x.abs() < 0.022 {
             "HairFront_Middle"
         } else if x > 0.0 {
@@ -85,8 +83,8 @@ pub(super) fn front() -> Vec<Placed> {
                 guide: vec![start, crown, over, brow, low, tip],
                 width,
                 thickness,
-                root: 0.8,
-                belly: 0.4,
+                root: 0.75,
+                belly: 0.56,
                 twist: vary(i, 1) * 0.12 - swing * 20.0,
                 strip: if layer == 0 { i % 3 } else { 3 },
             },
@@ -94,21 +92,22 @@ pub(super) fn front() -> Vec<Placed> {
         ));
     }
     // The ahoge: up from the whorl, forwards in an arc.
-    for (side, height, reach, width) in [(0.008, 0.058, 0.058, 0.0052), (-0.007, 0.03, 0.046, 0.0036)] {
-        let root = on_skull(0.0, 4.0, 0.012) + Vec3::X * side;
+    for (side, height, reach, width) in [(0.008, 0.046, 0.074, 0.006), (-0.007, 0.021, 0.056, 0.0044)] {
+        let root = on_skull(0.0, 4.0, 0.009) + Vec3::X * side;
         locks.push((
             Lock {
                 guide: vec![
                     root,
-                    root + Vec3::new(side, height * 0.62, 0.006),
-                    root + Vec3::new(side * 2.4, height, reach * 0.45),
-                    root + Vec3::new(side * 3.6, height * 0.72, reach),
+                    root + Vec3::new(side * 0.8, height * 0.6, 0.004),
+                    root + Vec3::new(side * 2.0, height, reach * 0.3),
+                    root + Vec3::new(side * 3.4, height * 0.98, reach * 0.68),
+                    root + Vec3::new(side * 4.4, height * 0.66, reach),
                 ],
                 width,
-                thickness: 0.003,
-                root: 0.8,
-                belly: 0.35,
-                twist: 0.3,
+                thickness: 0.0034,
+                root: 0.55,
+                belly: 0.45,
+                twist: 0.5,
                 strip: 0,
             },
             "",
@@ -193,9 +192,9 @@ pub(super) fn side() -> Vec<Placed> {
             let n = i as u32;
             let from = 6.0 + (root - 6.0) * 0.8;
             let mut guide = vec![
-                on_skull(root * sign, 5.0, 0.003),
-                on_skull(from * sign, 24.0, 0.0135),
-                on_skull((from * 0.3 + root * 0.7) * sign, 48.0, 0.0195),
+                on_skull(root * sign, 4.0, 0.008),
+                on_skull(from * sign, 24.0, 0.0165),
+                on_skull((from * 0.3 + root * 0.7) * sign, 48.0, 0.0225),
                 on_skull(root * sign, 72.0, 0.0175),
             ];
             let wave = 0.004 * vary(n, seed);
@@ -223,13 +222,13 @@ pub(super) fn side() -> Vec<Placed> {
 /// Where the sheet of back hair hangs: half width and depth behind the body at height `y`.
 fn curtain(y: f32) -> [f32; 2] {
     const TABLE: &[[f32; 3]] = &[
-        [0.86, 0.122, 0.168],
-        [0.95, 0.148, 0.166],
-        [1.05, 0.157, 0.161],
-        [1.15, 0.15, 0.157],
-        [1.22, 0.138, 0.155],
-        [1.28, 0.124, 0.15],
-        [1.34, 0.111, 0.139],
+        [0.86, 0.105, 0.168],
+        [0.95, 0.126, 0.166],
+        [1.05, 0.134, 0.161],
+        [1.15, 0.132, 0.157],
+        [1.22, 0.126, 0.155],
+        [1.28, 0.118, 0.15],
+        [1.34, 0.11, 0.139],
         [1.4, 0.107, 0.131],
         [1.44, 0.105, 0.13],
     ];
@@ -271,8 +270,8 @@ pub(super) fn back() -> Vec<Placed> {
             let around = 180.0 - across * 88.0;
             // Roots dive into the cap round the whorl, so that no ends show.
             let mut guide = vec![
-                on_skull(around, 4.0 + 3.0 * hash(id, 1, 2), 0.003),
-                on_skull(around, 18.0, 0.0105 + lift * 0.8),
+                on_skull(around, 3.0 + 5.0 * hash(id, 1, 2), 0.008),
+                on_skull(around + 5.0 * vary(id, 12), 18.0, 0.0135 + lift * 0.8),
                 on_skull(around, 38.0, 0.0125 + lift),
                 on_skull(around, 62.0, 0.0125 + lift),
             ];
@@ -295,7 +294,7 @@ pub(super) fn back() -> Vec<Placed> {
                 a if a > -0.66 => "HairBack_Right1",
                 _ => "HairBack_Right2",
             };
-            let scale = 0.88 + 0.24 * hash(id, 2, 7);
+            let scale = 0.72 + 0.62 * hash(id, 2, 7);
             locks.push((
                 Lock {
                     guide,

@@ -27,12 +27,18 @@ fn lathe(name: &str, material: &'static str, skeleton: &Skeleton, rings: &[[f32;
     let tip = rings[0][1];
     part.vertex(MIDDLE + Vec3::Z * tip * RADIUS, Vec2::splat(0.5), weights);
     let widest = rings.iter().map(|r| r[0]).fold(0.0, f32::max);
+    // The texture spans the whole surface, which may go on round the back.
+    let full = if rings.iter().any(|r| r[1] < 0.0) {
+        2.0 * widest
+    } else {
+        widest
+    };
     for [radius, height] in &rings[1..] {
         for s in 0..STEPS {
             let d = Vec2::from_angle(s as f32 / STEPS as f32 * TAU);
             let p = MIDDLE + Vec3::new(d.x * radius, d.y * radius, *height) * RADIUS;
-            let spread = if *height < 0.0 { 2.0 * widest - radius } else { *radius } / (2.0 * widest);
-            part.vertex(p, Vec2::new(0.5 + d.x * spread * 0.48, 0.5 - d.y * spread * 0.48), weights);
+            let spread = if *height < 0.0 { 2.0 * widest - radius } else { *radius } / full;
+            part.vertex(p, Vec2::new(0.5 + d.x * spread * 0.49, 0.5 - d.y * spread * 0.49), weights);
         }
     }
     for s in 0..STEPS {

@@ -229,7 +229,7 @@ fn lash_width(s: f32) -> f32 {
 }
 
 /// Where the wing of the upper lash ends, from the outer corner.
-const WING: Vec2 = Vec2::new(0.0068, -0.0006);
+const WING: Vec2 = Vec2::new(0.0078, 0.0024);
 
 /// Direction in which the upper lash grows at `s`: upwards, more and more outwards.
 fn lash_up(s: f32) -> Vec2 {
@@ -245,22 +245,22 @@ fn upper_lash(sheet: &mut Sheet<'_>) {
         let s = (c / ON_LID).min(1.0);
         let up = lash_up(s);
         // Shut lashes hang down.
-        let turn = 1.0 - 0.75 * eye.shut * (1.0 - eye.arch);
+        let turn = 1.0 - 0.25 * eye.shut * (1.0 - eye.arch);
         let width = lash_width(s) * (1.0 - 0.2 * eye.shut);
         let inner = 0.15 + 0.85 * (c / 0.08).min(1.0).sqrt();
         let low = lid(eye, s, false) - up * 0.0009;
         let high = low + up * (0.0009 + width * turn) * inner;
         let beyond = ((c - ON_LID) / (1.0 - ON_LID)).max(0.0);
-        let tip = CORNERS[1] + WING + Vec2::new(-0.0008, -0.0034) * eye.shut * (1.0 - eye.arch);
+        let tip = CORNERS[1] + WING + Vec2::new(-0.0006, -0.0068) * eye.shut * (1.0 - eye.arch);
         // Both edges run to the tip of the wing; the lower one hollow, the upper one full.
         let low = low.lerp(tip, beyond) + Vec2::new(0.0, 0.0011) * (beyond * (1.0 - beyond)) * 4.0;
         let high = high.lerp(tip + Vec2::new(0.0002, 0.0002), beyond)
             + Vec2::new(0.0004, 0.0006) * (beyond * (1.0 - beyond)) * 4.0;
         before(face, low + (high - low) * (1.0 - r), BEFORE + 0.0006 * (1.0 - r))
     });
-    // Spikes at the outer corner.
+    // A second lash beside the wing.
     {
-        let (at, length, lean, wide) = (0.93, 0.0058, 0.5f32, 0.13f32);
+        let (at, length, lean, wide) = (0.84, 0.0054, 0.72f32, 0.1f32);
         sheet.grid(
             4,
             3,
@@ -284,8 +284,8 @@ fn upper_lash(sheet: &mut Sheet<'_>) {
         let s = 0.2 + 0.72 * c;
         let open = Eye::default().lids(s)[0];
         let now = eye.lids(s)[0];
-        let y = open + (now - open) * 0.18 + 0.0052 + 0.0006 * c;
-        let width = 0.00085 * (4.0 * c * (1.0 - c)).max(0.02).sqrt();
+        let y = open + (now - open) * 0.62 + 0.0052 + 0.0006 * c;
+        let width = 0.00085 * (1.0 - 0.5 * eye.shut) * (4.0 * c * (1.0 - c)).max(0.02).sqrt();
         let x = lid(eye, s, false).x;
         before(face, Vec2::new(x, y + width * (0.5 - r)), BEFORE)
     });
@@ -298,22 +298,9 @@ fn lower_lash(sheet: &mut Sheet<'_>) {
         let s = 0.36 + 0.63 * c;
         let base = lid(eye, s, true);
         let down = -lid_normal(eye, s, true);
-        let width = 0.0013 * (c.max(0.02) * 1.5).min(1.0) * (1.0 - 0.55 * eye.shut);
+        let width = 0.0017 * (c.max(0.02) * 1.3).min(1.0) * (1.0 - 0.4 * c.powi(6)) * (1.0 - 0.55 * eye.shut);
         before(face, base - down * 0.0003 + down * width * r, BEFORE)
     });
-    for (at, length, lean) in [(0.9, 0.0024, -0.72f32), (0.78, 0.002, -0.95)] {
-        sheet.grid(
-            3,
-            3,
-            |r, c| Vec2::new(0.5 + 0.1 * c, 0.5 + r * 0.5),
-            |face, r, c| {
-                let eye = &face.eyes[0];
-                let s = (at + 0.05 * (c - 0.5) * (1.0 - 0.9 * r)).min(1.0);
-                let p = lid(eye, s, true) + Vec2::from_angle(lean) * length * r * (1.0 - 0.6 * eye.shut);
-                before(face, p, BEFORE + 0.0004)
-            },
-        );
-    }
 }
 
 fn brow(sheet: &mut Sheet<'_>) {
@@ -321,11 +308,11 @@ fn brow(sheet: &mut Sheet<'_>) {
     sheet.grid(4, 19, uv, |face, r, c| {
         let lift = face.brow.lift;
         let (l0, l1, l2) = (2.0 * (c - 0.5) * (c - 1.0), -4.0 * c * (c - 1.0), 2.0 * c * (c - 0.5));
-        let x = 0.0148 + 0.0438 * c - face.brow.frown * (1.0 - c);
-        let arch = 1.4435 + 0.0094 * (c * 2.1).sin() - 0.0048 * c * c;
+        let x = 0.0156 + 0.0435 * c - face.brow.frown * (1.0 - c);
+        let arch = 1.4412 + 0.0094 * (c * 2.1).sin() - 0.0048 * c * c;
         let y = arch + lift[0] * l0 + lift[1] * l1 + lift[2] * l2;
         // Full near the inner end, a long taper to the outer one.
-        let width = 0.0036 * (c / 0.12).clamp(0.1, 1.0).sqrt() * (1.0 - c).clamp(0.02, 1.0).powf(0.6);
+        let width = 0.0046 * (c / 0.12).clamp(0.1, 1.0).sqrt() * (1.0 - c).clamp(0.02, 1.0).powf(0.6);
         before(face, Vec2::new(x, y + width * (0.55 - r)), 0.0014)
     });
 }

@@ -354,7 +354,13 @@ fn socket(skeleton: &Skeleton, grid: &Grid, point: &impl Fn(usize, usize) -> Vec
                 Vec3::new(q.x, q.y, front(q.x, q.y).z - 0.0105)
             };
             let flip = |q: Vec3| Vec3::new(q.x * sign, q.y, q.z);
-            part.vertex(flip(back), flip_u(uv(back, 0.0), sign), weights(skeleton, p));
+            // The wall is painted like the floor: it shows in profile.
+            let inward = if second {
+                (back.truncate() - middle) * 0.22
+            } else {
+                Vec2::ZERO
+            };
+            part.vertex(flip(back), flip_u(uv(back - inward.extend(0.0), 0.0), sign), weights(skeleton, p));
             edge.push(border.then(|| flip(p)));
         }
     }
@@ -374,6 +380,10 @@ fn socket(skeleton: &Skeleton, grid: &Grid, point: &impl Fn(usize, usize) -> Vec
     }
     part.smooth_normals();
     add_morphs(&mut part, 0, |i, state| edge[i].map(|p| moved(p, LID, state) - p));
+    // Makes room for the spherical eyes.
+    for i in (0..part.vertices.len()).filter(|i| edge[*i].is_none()) {
+        part.offset("eyeballs", i as u32, Vec3::new(0.0, 0.0, -0.024));
+    }
     part
 }
 

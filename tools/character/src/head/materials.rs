@@ -22,7 +22,7 @@ pub(super) fn add(model: &mut Model) {
         Material {
             name: "Face",
             texture: Some("face"),
-            shade: srgb(0xf0bcb6),
+            shade: srgb(0xf3cac0),
             shade_texture: Some("face"),
             shift: 0.05,
             toony: 0.97,
@@ -73,7 +73,7 @@ pub(super) fn add(model: &mut Model) {
             double_sided: true,
             ..Material::default()
         },
-        Material { name: "Brow", color: srgba(0x8d86ac), shade: srgb(0x74688f), ..Material::default() },
+        Material { name: "Brow", color: srgba(0x625890), shade: srgb(0x52476f), ..Material::default() },
         Material { name: "EyeballSclera", color: srgba(0xfaf5f3), shade: srgb(0xdccbdc), ..Material::default() },
         Material {
             name: "EyeballIris",
@@ -85,7 +85,7 @@ pub(super) fn add(model: &mut Model) {
         },
         Material {
             name: "EyeballCornea",
-            color: [1.0, 1.0, 1.0, 0.08],
+            color: [1.0, 1.0, 1.0, 0.015],
             shade: [0.92, 0.9, 0.95],
             alpha: Alpha::Blend { depth_write: false, queue: -8 },
             ..Material::default()

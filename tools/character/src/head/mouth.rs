@@ -4,7 +4,7 @@ use glam::{Vec2, Vec3};
 
 use super::expressions::STATES;
 use super::shape::front;
-use super::state::{Face, MOUTH_Y};
+use super::state::{Face, MOUTH_WIDTH, MOUTH_Y};
 use crate::mesh::Part;
 use crate::skeleton::Skeleton;
 
@@ -52,6 +52,8 @@ pub(super) fn build(skeleton: &Skeleton) -> Part {
     sheet(&mut part, skeleton, 3, 9, [Vec2::new(0.02, 0.55), Vec2::new(0.98, 0.72)], |face, r, c| {
         let y =
             MOUTH_Y + 0.006 - 0.0052 * r + face.mouth.up * 0.5 - (face.mouth.down * 0.4).min(0.0022) + 0.0008 * c * c;
+        // Round lips hide them.
+        let y = y + 1.6 * (MOUTH_WIDTH - 0.0006 - face.mouth.width).max(0.0);
         arc(c, 0.0125, 0.0052).with_y(y)
     });
     sheet(&mut part, skeleton, 5, 7, [Vec2::new(0.05, 0.78), Vec2::new(0.95, 0.98)], |face, r, c| {

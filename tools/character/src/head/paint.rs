@@ -2,6 +2,8 @@
 
 use glam::{Vec2, Vec3};
 
+use super::face::uv;
+use super::shape::{JAW_ROW, net};
 use super::state::{CORNERS, Eye, MOUTH_Y, Mouth};
 use super::{UV_METRES, UV_TOP};
 use crate::picture::{Canvas, Picture, curve, ellipse, hash, noise, part_ids, polyline, rgb, smoothstep};
@@ -57,7 +59,8 @@ pub(super) fn face() -> Picture {
     nose(&mut c);
     lips(&mut c);
     // Under the chin and on the neck.
-    c.glow(Vec2::new(0.5, 0.79), Vec2::new(0.19, 0.075), 0xeba79e, 0.75);
+    c.fill(&jaw_shadow(), 0xf3c3b7, 0.95);
+    c.glow(Vec2::new(0.5, 0.76), Vec2::new(0.16, 0.05), 0xe9a79c, 0.5);
     let mut picture = c.finish();
     picture.map(|uv, [r, g, b, a]| {
         // A little unevenness, so that large flats do not look like plastic.
@@ -70,6 +73,21 @@ pub(super) fn face() -> Picture {
 fn lid(s: f32, side: f32, lower: bool, away: f32) -> Vec2 {
     let y = Eye::default().lids(s)[usize::from(lower)];
     at(side * (CORNERS[0].x + (CORNERS[1].x - CORNERS[0].x) * s), if lower { y - away } else { y + away })
+}
+
+/// The shadow that the jaw lays on the neck, with a drawn edge.
+fn jaw_shadow() -> tiny_skia::Path {
+    let jaw = |i: i32| {
+        let p = net(i.abs() as f32 * 0.3, JAW_ROW);
+        let to = uv(p, 0.0);
+        Vec2::new(0.5 + (to.x - 0.5) * i.signum() as f32, to.y + 0.008)
+    };
+    let low = |i: i32| {
+        let x = i as f32 / 20.0;
+        Vec2::new(0.5 - 0.5 * x, 0.835 - 0.035 * (1.0 - (x * 6.0).cos()) * 0.5 - 0.05 * x * x)
+    };
+    let outline: Vec<Vec2> = (-20..=20).map(jaw).chain((-20..=20).map(low)).collect();
+    polyline(&outline, true)
 }
 
 fn nose(c: &mut Canvas) {
@@ -88,8 +106,8 @@ fn lips(c: &mut Canvas) {
             at(x * q.signum(), (upper + lower) * 0.5)
         })
         .collect();
-    c.glow(at(0.0, MOUTH_Y - 0.0036), radii(0.0098, 0.0044), 0xf0938e, 0.42);
-    c.glow(at(0.0, MOUTH_Y + 0.002), radii(0.0105, 0.0032), 0xf0a09a, 0.3);
+    c.glow(at(0.0, MOUTH_Y - 0.0036), radii(0.0098, 0.0044), 0xf0938e, 0.16);
+    c.glow(at(0.0, MOUTH_Y + 0.002), radii(0.0105, 0.0032), 0xf0a09a, 0.1);
     c.stroke(&curve(&line, false), 0xb4585c, 0.95, 0.00085 / UV_METRES);
     c.stroke(&curve(&line[6..15], false), 0x8f3d46, 0.9, 0.00105 / UV_METRES);
     for end in [line[0], line[20]] {
@@ -131,7 +149,7 @@ fn mix(a: Vec3, b: Vec3, t: f32) -> Vec3 {
 
 /// The iris: amber, dark above, bright below, with pupil, rays and rim.
 pub(super) fn iris() -> Picture {
-    let [dark, middle, bright, glow] = [0x5c2415, 0xb8651d, 0xf2a531, 0xffe9a0].map(rgb);
+    let [dark, middle, bright, glow] = [0x4e1a24, 0xb8651d, 0xf2a531, 0xffe9a0].map(rgb);
     let (rim, pupil) = (rgb(0x43190f), rgb(0x2c0f14));
     Picture::from_fn(512, 512, |uv| {
         let d = (uv - 0.5) / 0.49;

@@ -4,15 +4,15 @@
 use glam::Vec2;
 
 /// Inner and outer corner of the left eye, x and y.
-pub const CORNERS: [Vec2; 2] = [Vec2::new(0.0142, 1.4018), Vec2::new(0.0592, 1.4078)];
+pub const CORNERS: [Vec2; 2] = [Vec2::new(0.0166, 1.402), Vec2::new(0.0592, 1.4078)];
 /// Middle of the left iris.
-pub const IRIS: Vec2 = Vec2::new(0.0368, 1.4104);
+pub const IRIS: Vec2 = Vec2::new(0.0374, 1.4114);
 /// Half axes of the iris.
-pub const IRIS_RADII: Vec2 = Vec2::new(0.0148, 0.0180);
+pub const IRIS_RADII: Vec2 = Vec2::new(0.0162, 0.0196);
 /// Height of the mouth's line in its middle.
 pub const MOUTH_Y: f32 = 1.3454;
 /// Half width of the closed mouth.
-pub const MOUTH_WIDTH: f32 = 0.0128;
+pub const MOUTH_WIDTH: f32 = 0.0102;
 
 /// One eye. Lengths in metres.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -127,7 +127,7 @@ impl Mouth {
 
 /// Height of the closed mouth's line.
 fn mouth_line(q: f32) -> f32 {
-    MOUTH_Y + 0.0009 * q * q - 0.0002 * (1.0 - q)
+    MOUTH_Y + 0.0014 * q * q - 0.0002 * (1.0 - q)
 }
 
 /// Smooth fall from 1 at 0 to 0 at `reach`.
