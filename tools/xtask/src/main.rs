@@ -8,6 +8,7 @@ mod driver;
 mod goldens;
 mod lint;
 mod test;
+mod vrm_check;
 
 use std::path::PathBuf;
 use std::process::exit;
@@ -15,7 +16,8 @@ use std::process::exit;
 const HELP: &str = "\
 cargo xtask TASK
 
-  demo [MODEL]              check the graphics driver, build, draw a character, say where the picture is
+  demo [MODEL] [--sheet]    check the graphics driver, build, draw a character, say where the picture is; with
+                            --sheet from all sides and with every expression
   test [ARGS…]              check the graphics driver, run all tests; ARGS go to `cargo test`. Without them, those of
                             pictures run again on SwiftShader where a browser brought it
   lint                      format, clippy, docs, words that must not be in the tree
@@ -24,6 +26,7 @@ cargo xtask TASK
   goldens --bless --all     accept all pictures that differ
   compare-references [DIR] [--write OUTDIR] [--only TEXT] [--json]
                             compare with pictures of another renderer (DIR: ../shared/models)
+  vrm-check                 the built-in character in glTF-Validator and three-vrm (needs npm and Chromium)
   badinput [DIR]            feed the corpus of malformed files to `hikage` (DIR: ../shared/badinput)
 ";
 
@@ -63,6 +66,7 @@ fn run(task: &str, args: &[String]) -> Outcome {
             }
             cargo::run(&with(&command, &args), &driver::ensure()?)
         }
+        "vrm-check" => vrm_check::run(args.as_slice()),
         "badinput" => badinput::run(&args),
         "" | "help" | "-h" | "--help" => {
             print!("{HELP}");

@@ -17,8 +17,20 @@ const SWIFTSHADER: [&str; 3] = [
 ];
 
 /// Tests that say something about a driver; of the whole workspace, so that nothing is built anew.
-const ON_SECOND_DRIVER: [&str; 10] =
-    ["test", "--workspace", "--test", "adapters", "--test", "golden", "--test", "laws", "--test", "oracles"];
+const ON_SECOND_DRIVER: [&str; 12] = [
+    "test",
+    "--workspace",
+    "--test",
+    "adapters",
+    "--test",
+    "golden",
+    "--test",
+    "golden_character",
+    "--test",
+    "laws",
+    "--test",
+    "oracles",
+];
 
 pub(crate) fn run(args: &[String]) -> Outcome {
     let vulkan = driver::ensure()?;

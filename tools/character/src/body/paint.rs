@@ -14,9 +14,9 @@ pub(super) fn skin() -> Picture {
     // The swell over the stocking, and the shade of the skirt.
     c.linear(
         &square(0.0, 0.0, 1.0, 0.26),
-        Vec2::new(0.0, 0.21),
-        Vec2::new(0.0, 0.216),
-        &[(0.0, 0xf1beb2, 0.95), (1.0, 0xf1beb2, 0.0)],
+        Vec2::new(0.0, 0.14),
+        Vec2::new(0.0, 0.255),
+        &[(0.0, 0xf1beb2, 0.8), (1.0, 0xf4c9be, 0.0)],
     );
     c.linear(
         &square(0.0, 0.34, 1.0, 0.47),

@@ -225,7 +225,7 @@ pub(super) fn build(skeleton: &Skeleton) -> [Part; 2] {
                     let path = |k: usize| point(k - 1, c).distance(point(k, c));
                     let length: f32 = (JAW + 1..=r).map(path).sum();
                     if r > JAW {
-                        length * 0.66 + point(r, c).y - point(JAW, c).y
+                        length * 0.65 + point(r, c).y - point(JAW, c).y
                     } else {
                         0.0
                     }

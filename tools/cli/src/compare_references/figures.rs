@@ -8,6 +8,8 @@ use serde::Serialize;
 pub(super) const OFF: u8 = 8;
 /// Half the width of the band along silhouettes, pixels.
 pub(super) const BAND: usize = 2;
+/// Levels of the depth picture between neighbours that make a silhouette: about a hundredth of the depth of what is seen.
+pub(super) const STEP: u8 = 3;
 
 /// Numbers over a set of pixels.
 #[derive(Clone, Copy, Default, Serialize)]
@@ -27,26 +29,36 @@ pub(super) fn part_ids(picture: &Image) -> Vec<u16> {
     picture.pixels.chunks_exact(4).map(|p| u16::from_le_bytes([p[0], p[1]])).collect()
 }
 
-/// Which pixels have another part within [`BAND`] pixels, diagonals included.
-pub(super) fn band(ids: &[u16], width: usize) -> Vec<bool> {
-    // The square window is taken as a row, then a column of the row's extremes.
-    let height = ids.len() / width.max(1);
-    let span = |at: usize, end: usize| at.saturating_sub(BAND)..(at + BAND + 1).min(end);
-    let mut rows = Vec::with_capacity(ids.len());
-    for row in ids.chunks_exact(width.max(1)) {
+/// Which pixels have a silhouette within [`BAND`] pixels, diagonals included: the border of a part, or a step of at least
+/// [`STEP`] in the depth picture, as where one lock of hair lies before another.
+pub(super) fn band(ids: &[u16], depth: &Image) -> Vec<bool> {
+    let (width, height) = (depth.width as usize, depth.height as usize);
+    let grey = |i: usize| depth.pixels[i * 4];
+    let mut near = vec![false; ids.len()];
+    for y in 0..height {
         for x in 0..width {
-            let near = &row[span(x, width)];
-            rows.push(near.iter().fold((u16::MAX, 0), |(low, high), id| (low.min(*id), high.max(*id))));
+            let i = y * width + x;
+            // The other half of the neighbours meets this pixel from its own side.
+            for (dx, dy) in [(1, 0), (-1, 1), (0, 1), (1, 1)] {
+                let (Some(x), y) = (x.checked_add_signed(dx).filter(|x| *x < width), y + dy) else { continue };
+                let j = y * width + x;
+                if y < height && (ids[i] != ids[j] || grey(i).abs_diff(grey(j)) >= STEP) {
+                    (near[i], near[j]) = (true, true);
+                }
+            }
         }
     }
-    (0..ids.len())
-        .map(|i| {
+    // Pixels beside a silhouette are near by one already.
+    for _ in 1..BAND {
+        let before = near.clone();
+        for i in (0..near.len()).filter(|i| before[*i]) {
             let (x, y) = (i % width, i / width);
-            let near = span(y, height).map(|y| rows[y * width + x]);
-            let (low, high) = near.fold((u16::MAX, 0), |a: (u16, u16), b| (a.0.min(b.0), a.1.max(b.1)));
-            low != high
-        })
-        .collect()
+            for y in y.saturating_sub(1)..(y + 2).min(height) {
+                near[y * width..][x.saturating_sub(1)..(x + 2).min(width)].fill(true);
+            }
+        }
+    }
+    near
 }
 
 /// Sum over RGB, and largest over RGBA, of the absolute differences of every pixel, both laid on mid grey.
@@ -96,13 +108,18 @@ mod tests {
 
     #[test]
     fn the_band_reaches_two_pixels_to_each_side_and_over_corners() {
+        let flat = Image { width: 9, height: 9, pixels: vec![90; 9 * 9 * 4], ..Image::default() };
         let mut ids = vec![1u16; 81];
         ids[4 * 9 + 4] = 2;
-        let band = band(&ids, 9);
-        let inside = |x: usize, y: usize| x.abs_diff(4) <= 2 && y.abs_diff(4) <= 2;
-        for (i, found) in band.iter().enumerate() {
-            assert_eq!(*found, inside(i % 9, i / 9), "{i}");
+        let mut step = flat.clone();
+        step.pixels[(4 * 9 + 4) * 4] += STEP;
+        for band in [band(&ids, &flat), band(&[1; 81], &step)] {
+            let inside = |x: usize, y: usize| x.abs_diff(4) <= 2 && y.abs_diff(4) <= 2;
+            for (i, found) in band.iter().enumerate() {
+                assert_eq!(*found, inside(i % 9, i / 9), "{i}");
+            }
         }
+        assert!(band(&[1; 81], &flat).iter().all(|near| !near));
     }
 
     #[test]

@@ -183,8 +183,9 @@ impl Studio {
         let expressions: Vec<_> = reference.expressions.into_iter().flatten().collect();
         gpu_scene.set_pose(&self.gpu, scene, &setup::pose(scene, hikage::motion::Stance::Rest, &expressions)?);
         let ours = self.renderer.render(gpu_scene, &view)?;
-        let id_view = View { channel: Channel::PartId, background: Background::Transparent, ..view.clone() };
-        let ids = part_ids(&self.renderer.render(gpu_scene, &id_view)?);
+        let plain = |channel| View { channel, background: Background::Transparent, ..view.clone() };
+        let ids = part_ids(&self.renderer.render(gpu_scene, &plain(Channel::PartId))?);
+        let depth = self.renderer.render(gpu_scene, &plain(Channel::Depth))?;
 
         // Also refuses other sizes.
         let report = compare(&theirs, &ours, &Tolerance { channel: OFF, ..Tolerance::default() })?;
@@ -194,7 +195,7 @@ impl Studio {
             let file_name = format!("{}{ending}.png", name.replace(['/', '\\'], "_"));
             Ok(write_png(out.join(file_name), &sheet(&theirs, ours, Some(&report))?)?)
         };
-        let in_band = band(&ids, ours.width as usize);
+        let in_band = band(&ids, &depth);
         let compared = differences(&theirs, &ours);
         let all = figures(&compared, ours.width, &in_band, |_| true);
         write("", &ours, &all)?;
