@@ -61,11 +61,11 @@ fn files(folder: &Path) -> Vec<String> {
 fn help_names_every_command_and_the_exit_statuses() {
     let dir = folder("help");
     let help = succeeds(&dir, &["--help"]);
-    for word in ["render", "inspect", "bench", "adapters", "Exit status", "NO_COLOR", "--timeout"] {
+    for word in ["render", "sheet", "inspect", "bench", "adapters", "Exit status", "NO_COLOR", "--timeout"] {
         assert!(help.contains(word), "{word} in {help}");
     }
     assert!(!help.contains("compare-references"));
-    for command in ["render", "inspect", "bench", "adapters"] {
+    for command in ["render", "sheet", "inspect", "bench", "adapters"] {
         assert!(succeeds(&dir, &[command, "--help"]).contains("Usage: hikage"), "{command}");
     }
     assert!(succeeds(&dir, &["--version"]).starts_with("hikage "));
@@ -228,6 +228,20 @@ fn render_writes_the_picture_and_the_report_and_nothing_else() {
     let picture = hikage::picture::read_png(dir.join("out.png")).expect("PNG");
     assert_eq!((picture.width, picture.height, picture.pixels[3]), (8, 9, 255));
     assert_eq!(files(&dir), ["out.png", "report.json", "shot.json", "triangle.gltf"]);
+}
+
+#[test]
+fn a_sheet_shows_any_model_and_the_built_in_one_without_a_file() {
+    let dir = folder("sheet");
+    succeeds(&dir, &["sheet", "triangle.gltf", "-o", "sheet.png", "--panel", "64"]);
+    let picture = hikage::picture::read_png(dir.join("sheet.png")).expect("PNG");
+    // Without a humanoid: four portraits and four whole views.
+    assert_eq!((picture.width, picture.height), (4 * 72 + 8, 8 + (64 + 24 + 8) + (112 + 24 + 8)));
+    succeeds(&dir, &["render", "-o", "heroine.png", "--size", "64x64", "--background", "none"]);
+    let picture = hikage::picture::read_png(dir.join("heroine.png")).expect("PNG");
+    let seen = picture.pixels.chunks_exact(4).filter(|p| p[3] == 255).count();
+    assert!((1000..3500).contains(&seen), "{seen} of 4096 pixels are hers");
+    assert_eq!(files(&dir), ["heroine.png", "sheet.png", "triangle.gltf"]);
 }
 
 #[test]

@@ -1,9 +1,11 @@
 //! The built-in character, looked at from all sides, bent, and with every expression.
 
+use std::collections::BTreeMap;
+
 use hikage::golden::{Goldens, Tolerance};
 use hikage::import::{Limits, load_bytes};
 use hikage::motion::{Pose, Stance};
-use hikage::scene::{Framing, Scene};
+use hikage::scene::{Framing, Role, Scene};
 use hikage::{Background, Gpu, GpuScene, Output, Renderer, View, color::Srgb};
 
 /// Another driver may round edges and ramps differently, never more.
@@ -54,6 +56,39 @@ impl Studio {
             self.faults.push(fault.to_string());
         }
     }
+}
+
+/// What each mesh is taken for. No look file says so: names, bones and morphs do.
+const ROLES: &[(Role, &[&str])] = &[
+    (Role::Skin, &["Skin"]),
+    (
+        Role::Cloth,
+        &["Stockings", "Boots", "Shorts", "Blouse", "Jacket", "JacketLining", "FurCollar", "FurCuffs", "Skirt", "Bow"],
+    ),
+    (
+        Role::Accessory,
+        &["Buckles", "Belt", "Brooch", "BeltBuckle", "PendantCord", "Pendant", "HairPin", "HairPinDiamond", "Flame"],
+    ),
+    (Role::Face, &["Face"]),
+    (Role::Mouth, &["Mouth"]),
+    (Role::EyeWhite, &["EyeWhite", "EyeballSclera"]),
+    (Role::Eye, &["EyeIris", "EyeHighlight1", "EyeHighlight2", "EyeballIris", "EyeballCornea"]),
+    (Role::Lash, &["EyelashShadow", "EyelashUpper", "EyelashLower"]),
+    (Role::Brow, &["Brow"]),
+    (Role::HairFront, &["HairFront", "HairSide"]),
+    (Role::Hair, &["HairBack", "HairCards"]),
+];
+
+#[test]
+fn roles_are_guessed_right() {
+    let scene =
+        load_bytes("hikage.vrm", &hikage_character::file(), None, &Limits::default()).expect("the file is read");
+    let expected: BTreeMap<&str, Role> =
+        ROLES.iter().flat_map(|(role, meshes)| meshes.iter().map(|m| (*m, *role))).collect();
+    let found: BTreeMap<&str, Role> =
+        scene.meshes.iter().flat_map(|m| m.primitives.iter().map(|p| (m.name.as_str(), p.role))).collect();
+    assert_eq!(found, expected);
+    assert!(scene.warnings.is_empty(), "{:?}", scene.warnings);
 }
 
 #[test]

@@ -47,7 +47,7 @@ fn frame(t: f32) -> (Vec3, Vec3, Vec3) {
     let p = course(t).0;
     let away = Vec3::new(p.x, 0.35 * (p.y - 1.16), p.z + 0.015).normalize();
     let away = (away - along * away.dot(along)).normalize();
-    (along, away, away.cross(along))
+    (along, away, along.cross(away))
 }
 
 /// The collar.
@@ -100,7 +100,7 @@ pub(super) fn collar(skeleton: &Skeleton) -> Part {
             let length = r * (1.1 + 0.6 * hash(id, 3, 72)) * size;
             let reach = (down * 0.95 + out * 0.42 + lean).normalize() * length;
             let tuft = Tuft {
-                root: p + out * r * 0.66 - down * length * 0.3,
+                root: p + out * r * 0.78 - down * length * 0.3,
                 reach,
                 out,
                 half: r * (0.33 + 0.12 * hash(id, 4, 73)),

@@ -39,8 +39,6 @@ pub(super) fn blouse() -> Picture {
             at(0.2, 1.0),
         ];
         c.fill(&polyline(&lapel, true), 0xcdc6e6, 0.85);
-        let bust = [at(0.02, 0.55), at(0.042, 0.545), at(0.068, 0.515), at(0.068, 0.57), at(0.042, 0.568)];
-        c.fill(&curve(&bust, true), 0xcdc6e6, 0.7);
     }
     // The ribbon round the collar.
     c.fill(&square(0.0, 0.042, 1.0, 0.064), 0x2b2f55, 1.0);
@@ -179,6 +177,15 @@ pub(super) fn fur_normal() -> Picture {
         // Slopes of the texture, as if a tuft were as high as a quarter of its width.
         let n = Vec3::new(-slope(Vec2::X * STEP) / 60.0, slope(Vec2::Y * STEP) / 60.0, 1.0).normalize();
         [n.x * 0.5 + 0.5, n.y * 0.5 + 0.5, n.z * 0.5 + 0.5, 1.0]
+    })
+}
+
+/// Width of the skirt's outline: none in the folds, where it would fill them with black.
+pub(super) fn skirt_outline() -> Picture {
+    Picture::from_fn(1024, 4, |uv| {
+        let x = (uv.x * 22.0).fract();
+        let value = smoothstep(0.0, 0.1, x) * smoothstep(0.64, 0.54, x);
+        [value, value, value, 1.0]
     })
 }
 

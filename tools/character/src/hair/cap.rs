@@ -24,7 +24,7 @@ pub(super) fn build(part: &mut Part, skeleton: &Skeleton) {
     let place = |around: f32, t: f32| {
         let down = hairline(around) * t;
         // It dips under the skin at its edge.
-        skull(direction(around, down), 0.0135 + 0.0025 * smoothstep(0.05, 0.4, t) - 0.0175 * smoothstep(0.8, 1.0, t))
+        skull(direction(around, down), 0.0205 - 0.0045 * smoothstep(0.0, 0.3, t) - 0.0175 * smoothstep(0.8, 1.0, t))
     };
     // From the back over her right side to the front and on: seen from outside a row runs to the right.
     for r in 0..DOWN {

@@ -92,27 +92,26 @@ pub(super) fn front() -> Vec<Placed> {
         ));
     }
     // The ahoge: up from the whorl, forwards in an arc.
-    for (side, height, reach, width) in [(0.008, 0.046, 0.074, 0.006), (-0.007, 0.021, 0.056, 0.0044)] {
-        let root = on_skull(0.0, 4.0, 0.009) + Vec3::X * side;
-        locks.push((
-            Lock {
-                guide: vec![
-                    root,
-                    root + Vec3::new(side * 0.8, height * 0.6, 0.004),
-                    root + Vec3::new(side * 2.0, height, reach * 0.3),
-                    root + Vec3::new(side * 3.4, height * 0.98, reach * 0.68),
-                    root + Vec3::new(side * 4.4, height * 0.66, reach),
-                ],
-                width,
-                thickness: 0.0034,
-                root: 0.55,
-                belly: 0.45,
-                twist: 0.5,
-                strip: 0,
-            },
-            "",
-        ));
-    }
+    let root = on_skull(0.0, 4.0, 0.009) + Vec3::X * 0.008;
+    let arc = [
+        [0.0, 0.0, 0.0],
+        [0.0064, 0.0276, 0.004],
+        [0.016, 0.046, 0.0222],
+        [0.0272, 0.045, 0.05],
+        [0.0352, 0.03, 0.074],
+    ];
+    locks.push((
+        Lock {
+            guide: arc.map(|p| root + Vec3::from_array(p)).to_vec(),
+            width: 0.006,
+            thickness: 0.0034,
+            root: 0.55,
+            belly: 0.45,
+            twist: 0.5,
+            strip: 0,
+        },
+        "",
+    ));
     locks
 }
 
@@ -126,14 +125,14 @@ pub(super) fn side() -> Vec<Placed> {
         let list: &[(f32, [[f32; 3]; 4], f32, f32, u32)] = &[
             (
                 56.0,
-                [[0.0915, 1.42, 0.034], [0.0925, 1.345, 0.044], [0.092, 1.25, 0.088], [0.078, 1.098, 0.128]],
+                [[0.0915, 1.42, 0.034], [0.0925, 1.345, 0.044], [0.092, 1.25, 0.1], [0.08, 1.098, 0.146]],
                 0.0165,
                 0.0095,
                 0,
             ),
             (
                 70.0,
-                [[0.0985, 1.42, 0.012], [0.102, 1.345, 0.022], [0.104, 1.255, 0.066], [0.1, 1.135, 0.108]],
+                [[0.0985, 1.42, 0.012], [0.102, 1.345, 0.022], [0.104, 1.255, 0.078], [0.102, 1.135, 0.126]],
                 0.0165,
                 0.009,
                 1,
@@ -147,7 +146,7 @@ pub(super) fn side() -> Vec<Placed> {
             ),
             (
                 63.0,
-                [[0.0955, 1.42, 0.026], [0.0975, 1.35, 0.036], [0.099, 1.27, 0.078], [0.096, 1.192, 0.1]],
+                [[0.0955, 1.42, 0.026], [0.0975, 1.35, 0.036], [0.099, 1.27, 0.086], [0.098, 1.192, 0.116]],
                 0.0085,
                 0.0055,
                 2,
@@ -182,7 +181,7 @@ pub(super) fn side() -> Vec<Placed> {
             ),
             (
                 52.0,
-                [[0.0885, 1.42, 0.045], [0.0905, 1.345, 0.054], [0.09, 1.27, 0.088], [0.082, 1.17, 0.118]],
+                [[0.0885, 1.42, 0.045], [0.0905, 1.345, 0.054], [0.09, 1.27, 0.098], [0.084, 1.17, 0.136]],
                 0.0052,
                 0.004,
                 1,
@@ -191,16 +190,18 @@ pub(super) fn side() -> Vec<Placed> {
         for (i, (root, places, width, thickness, strip)) in list.iter().enumerate() {
             let n = i as u32;
             let from = 6.0 + (root - 6.0) * 0.8;
+            // Neighbours do not lie in one surface.
+            let apart = 0.0022 * (n % 3) as f32;
             let mut guide = vec![
                 on_skull(root * sign, 4.0, 0.008),
-                on_skull(from * sign, 24.0, 0.0165),
-                on_skull((from * 0.3 + root * 0.7) * sign, 48.0, 0.0225),
-                on_skull(root * sign, 72.0, 0.0175),
+                on_skull(from * sign, 24.0, 0.0165 + apart),
+                on_skull((from * 0.3 + root * 0.7) * sign, 48.0, 0.0225 + apart),
+                on_skull(root * sign, 72.0, 0.0175 + apart),
             ];
             let wave = 0.004 * vary(n, seed);
             for (k, [x, y, z]) in places.iter().enumerate() {
                 let bend = if k % 2 == 0 { wave } else { -wave };
-                guide.push(Vec3::new((x + 0.005 + bend) * sign, *y + 0.006 * vary(n * 7 + k as u32, seed), *z));
+                guide.push(Vec3::new((x + 0.005 + apart + bend) * sign, *y + 0.006 * vary(n * 7 + k as u32, seed), *z));
             }
             locks.push((
                 Lock {

@@ -12,35 +12,39 @@ pub(super) type State = fn() -> Face;
 pub(super) const STATES: &[(&str, State)] = &[
     ("blinkLeft", || Face { eyes: [SHUT, Eye::default()], ..Face::default() }),
     ("blinkRight", || Face { eyes: [Eye::default(), SHUT], ..Face::default() }),
-    ("aa", || mouth(Mouth { width: 0.012, up: 0.0024, down: 0.0152, corner: 0.0, roundness: 0.58, jaw: 0.0075 })),
-    ("ih", || mouth(Mouth { width: 0.0114, up: 0.0012, down: 0.0032, corner: 0.0006, roundness: 0.6, jaw: 0.0014 })),
-    ("ou", || mouth(Mouth { width: 0.0046, up: 0.0024, down: 0.0036, corner: -0.0008, roundness: 0.5, jaw: 0.0016 })),
+    ("aa", || mouth(Mouth { width: 0.0126, up: 0.0042, down: 0.0148, corner: 0.0, roundness: 0.52, jaw: 0.0075 })),
+    ("ih", || mouth(Mouth { width: 0.0098, up: 0.0008, down: 0.0024, corner: 0.0008, roundness: 0.6, jaw: 0.0014 })),
+    ("ou", || mouth(Mouth { width: 0.0044, up: 0.0034, down: 0.0036, corner: -0.001, roundness: 0.5, jaw: 0.0016 })),
     ("ee", || mouth(Mouth { width: 0.0148, up: 0.0018, down: 0.0058, corner: 0.0012, roundness: 0.42, jaw: 0.0024 })),
-    ("oh", || mouth(Mouth { width: 0.0068, up: 0.005, down: 0.0096, corner: -0.0006, roundness: 0.5, jaw: 0.005 })),
+    ("oh", || mouth(Mouth { width: 0.0064, up: 0.0074, down: 0.0084, corner: -0.001, roundness: 0.5, jaw: 0.005 })),
     ("happy", || Face {
         eyes: [Eye { shut: 1.0, arch: 1.0, ..Eye::default() }; 2],
         mouth: Mouth { width: 0.0148, up: 0.001, down: 0.0108, corner: 0.0034, roundness: 0.62, jaw: 0.003 },
         brow: Brow { lift: [0.003, 0.005, 0.0036], frown: 0.0 },
     }),
     ("angry", || Face {
-        eyes: [Eye { upper: [-0.0046, -0.004, -0.0004], lower: 0.002, iris: -0.08, ..Eye::default() }; 2],
+        eyes: [Eye { upper: [-0.0078, -0.005, 0.0002], lower: 0.0026, iris: -0.1, ..Eye::default() }; 2],
         mouth: Mouth { width: 0.0112, up: 0.0014, down: 0.0012, corner: -0.0046, ..Mouth::default() },
         brow: Brow { lift: [-0.0072, -0.0042, 0.0044], frown: 0.003 },
     }),
     ("sad", || Face {
-        eyes: [Eye { upper: [0.0, -0.0036, -0.0056], lower: 0.0006, gaze: Vec2::new(0.0, -0.0012), ..Eye::default() };
-            2],
-        mouth: Mouth { width: 0.0088, up: 0.0004, down: 0.0008, corner: -0.0036, ..Mouth::default() },
+        eyes: [Eye {
+            upper: [0.0004, -0.0054, -0.0096],
+            lower: 0.0012,
+            gaze: Vec2::new(0.0, -0.0012),
+            ..Eye::default()
+        }; 2],
+        mouth: Mouth { width: 0.0102, up: 0.0008, down: 0.0004, corner: -0.0044, ..Mouth::default() },
         brow: Brow { lift: [0.0066, 0.0002, -0.0048], frown: 0.0014 },
     }),
     ("relaxed", || Face {
-        eyes: [Eye { shut: 0.42, arch: 0.7, lower: 0.0008, ..Eye::default() }; 2],
+        eyes: [Eye { shut: 0.3, arch: 0.85, lower: 0.001, ..Eye::default() }; 2],
         mouth: Mouth { width: 0.0124, up: 0.0, down: 0.0002, corner: 0.0024, ..Mouth::default() },
         brow: Brow { lift: [0.001, 0.0006, -0.0012], frown: 0.0 },
     }),
     ("surprised", || Face {
         eyes: [Eye { upper: [0.0016, 0.0028, 0.0024], lower: -0.0014, iris: -0.2, ..Eye::default() }; 2],
-        mouth: Mouth { width: 0.0058, up: 0.0036, down: 0.0064, corner: -0.0006, roundness: 0.5, jaw: 0.0034 },
+        mouth: Mouth { width: 0.0056, up: 0.005, down: 0.0058, corner: -0.001, roundness: 0.5, jaw: 0.0034 },
         brow: Brow { lift: [0.0085, 0.0098, 0.0082], frown: 0.0 },
     }),
     ("lookUp", || gaze(0.0, 0.0042)),

@@ -60,7 +60,10 @@ pub(super) fn face() -> Picture {
     lips(&mut c);
     // Under the chin and on the neck.
     c.fill(&jaw_shadow(), 0xf3c3b7, 0.95);
-    c.glow(Vec2::new(0.5, 0.76), Vec2::new(0.16, 0.05), 0xe9a79c, 0.5);
+    for side in [-1.0, 1.0] {
+        let line: Vec<Vec2> = (1..=17).map(|i| jaw_point(side, i as f32 * 0.3)).collect();
+        c.stroke(&curve(&line, false), 0xa4564e, 0.9, 0.0011 / UV_METRES);
+    }
     let mut picture = c.finish();
     picture.map(|uv, [r, g, b, a]| {
         // A little unevenness, so that large flats do not look like plastic.
@@ -75,16 +78,18 @@ fn lid(s: f32, side: f32, lower: bool, away: f32) -> Vec2 {
     at(side * (CORNERS[0].x + (CORNERS[1].x - CORNERS[0].x) * s), if lower { y - away } else { y + away })
 }
 
+/// Point of the texture on the edge of the jaw, by column of the net.
+fn jaw_point(side: f32, column: f32) -> Vec2 {
+    let to = uv(net(column, JAW_ROW), 0.0);
+    Vec2::new(0.5 + (to.x - 0.5) * side, to.y)
+}
+
 /// The shadow that the jaw lays on the neck, with a drawn edge.
 fn jaw_shadow() -> tiny_skia::Path {
-    let jaw = |i: i32| {
-        let p = net(i.abs() as f32 * 0.3, JAW_ROW);
-        let to = uv(p, 0.0);
-        Vec2::new(0.5 + (to.x - 0.5) * i.signum() as f32, to.y + 0.008)
-    };
+    let jaw = |i: i32| jaw_point(i.signum() as f32, i.abs() as f32 * 0.3) + Vec2::new(0.0, 0.004);
     let low = |i: i32| {
         let x = i as f32 / 20.0;
-        Vec2::new(0.5 - 0.5 * x, 0.835 - 0.035 * (1.0 - (x * 6.0).cos()) * 0.5 - 0.05 * x * x)
+        Vec2::new(0.5 - 0.5 * x, 0.875 - 0.36 * (x * x).min(0.36))
     };
     let outline: Vec<Vec2> = (-20..=20).map(jaw).chain((-20..=20).map(low)).collect();
     polyline(&outline, true)
