@@ -1,7 +1,7 @@
 //! Import, upload and frames, with the floor that a frame is measured against: the same triangles in the same targets,
 //! unlit with one texture.
 //!
-//! The model is the one that `HIKAGE_BENCH_MODEL` names, else the largest VRM file in `../shared/models`.
+//! The model is the one file (VRM, GLB) that `HIKAGE_BENCH_MODEL` names, else the built-in character.
 
 use std::{path::PathBuf, time::Duration};
 
@@ -13,23 +13,21 @@ use hikage::{
     scene::Framing,
 };
 
-fn model() -> PathBuf {
-    if let Some(path) = std::env::var_os("HIKAGE_BENCH_MODEL") {
-        return path.into();
+/// Name and bytes of the model.
+fn model() -> (String, Vec<u8>) {
+    match std::env::var_os("HIKAGE_BENCH_MODEL").map(PathBuf::from) {
+        Some(path) => (path.display().to_string(), std::fs::read(&path).expect("HIKAGE_BENCH_MODEL names a file")),
+        None => ("hikage.vrm".into(), hikage_character::file()),
     }
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/models");
-    let files = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|e| e.path());
-    let vrm = files.filter(|p| p.extension().is_some_and(|e| e == "vrm"));
-    let size = |p: &PathBuf| std::fs::metadata(p).map_or(0, |m| m.len());
-    vrm.max_by_key(size).expect("a model: set HIKAGE_BENCH_MODEL to a VRM file")
 }
 
 fn benches(c: &mut Criterion) {
-    let path = model();
-    let scene = import::load(&path).expect("a model that loads");
+    let (name, bytes) = model();
+    let load = || import::load_bytes(&name, &bytes, None, &import::Limits::default()).expect("a model that loads");
+    let scene = load();
     let gpu = Gpu::headless(None).expect("an adapter");
-    println!("{} on {}", path.display(), gpu.info().name);
-    c.bench_function("import", |b| b.iter(|| import::load(&path).expect("loads")));
+    println!("{name} on {}", gpu.info().name);
+    c.bench_function("import", |b| b.iter(load));
     c.bench_function("upload", |b| {
         b.iter(|| Renderer::new(&gpu).and_then(|mut r| r.upload(&scene)).expect("uploads"));
     });

@@ -16,10 +16,12 @@ use crate::spinner::Spinner;
 #[derive(clap::Args)]
 #[command(after_help = "\
 The floor is the same meshes with the same samples, drawn unlit with one texture: what no shading can go below.
-Example: hikage bench girl.vrm --size 512x512 --instances 20")]
+Examples:
+  hikage bench
+  hikage bench girl.vrm --size 512x512 --instances 20")]
 pub(crate) struct Args {
-    /// Model: .vrm, .glb or .gltf.
-    model: PathBuf,
+    /// Model: .vrm, .glb or .gltf [default: the built-in character].
+    model: Option<PathBuf>,
     /// Size of the picture, pixels.
     #[arg(long, value_name = "WxH", default_value = "1024x1024", value_parser = args::size)]
     size: [u32; 2],
@@ -52,7 +54,7 @@ pub(crate) struct Args {
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let spinner = Spinner::new();
     spinner.step("loading the model");
-    let scene = hikage::import::load(&args.model)?;
+    let scene = setup::load(args.model.as_deref())?;
     spinner.step("opening the adapter");
     let gpu = setup::gpu(args.adapter.as_deref())?;
     spinner.step(format!("measuring {} frames", args.frames));

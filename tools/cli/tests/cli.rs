@@ -190,6 +190,14 @@ fn inspect_tells_what_a_model_an_image_and_a_shader_hold() {
 // From here on an adapter is needed.
 
 #[test]
+fn inspect_finds_no_fault_in_the_built_in_character() {
+    let dir = folder("built-in");
+    fs::write(dir.join("hikage.vrm"), hikage_character::file()).expect("file");
+    let text = succeeds(&dir, &["inspect", "hikage.vrm"]);
+    assert!(text.contains("VRM 1.0") && !text.to_lowercase().contains("warning"), "{text}");
+}
+
+#[test]
 fn adapters_are_listed_and_an_unknown_one_is_status_3_and_names_them() {
     let dir = folder("adapters");
     let list: Vec<serde_json::Value> =
