@@ -78,7 +78,7 @@ fn materials(model: &mut Model) {
         Material { name: "Jacket_Lining", color: srgba(0xe8a33d), shade: srgb(0xb0603a), ..Material::default() },
         fur("Jacket_Fur"),
         fur("Jacket_Cuff"),
-        Material { outline_mask: Some("skirt_outline"), ..cloth("Skirt", "skirt", 0x9580c4, 0x171228) },
+        Material { outline_mask: Some("skirt_outline"), ..cloth("Skirt", "skirt", 0xb09cd8, 0x171228) },
         Material {
             name: "Cloth_Belt",
             color: srgba(0x5d4238),

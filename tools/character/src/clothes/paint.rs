@@ -180,18 +180,22 @@ pub(super) fn fur_normal() -> Picture {
     })
 }
 
-/// Width of the skirt's outline: none in the folds, where it would fill them with black.
+/// Width of the skirt's outline: none in the folds, which it would fill, and none inside.
 pub(super) fn skirt_outline() -> Picture {
-    Picture::from_fn(1024, 4, |uv| {
+    Picture::from_fn(1024, 64, |uv| {
         let x = (uv.x * 22.0).fract();
-        let value = smoothstep(0.0, 0.1, x) * smoothstep(0.64, 0.54, x);
+        let value = if uv.y > 0.95 {
+            0.0
+        } else {
+            smoothstep(0.0, 0.1, x) * smoothstep(0.64, 0.54, x)
+        };
         [value, value, value, 1.0]
     })
 }
 
 /// Skirt: 22 pleats side by side; the fold of each is dark, a pale stripe runs above the hem.
 pub(super) fn skirt() -> Picture {
-    let [light, cloth, deep, stripe] = [0x5d5378, 0x4a4163, 0x342c50, 0xd9cfe6].map(rgb);
+    let [light, cloth, deep, stripe] = [0x5d5378, 0x4a4163, 0x3c3459, 0xd9cfe6].map(rgb);
     Picture::from_fn(2048, 512, |uv| {
         let x = (uv.x * 22.0).fract();
         if uv.y > 0.945 {

@@ -111,7 +111,9 @@ pub(super) fn build(model: &mut Model) -> Part {
                     let angle = -PI + (k as f32 + at - 0.43 + 0.5) * step;
                     // The hem waves a little.
                     let dip = 0.004 * smoothstep(0.7, 1.0, t) * (angle * 3.0).cos();
-                    surface(angle, y - dip, -fold * depth - inside)
+                    // Inside no cloth lies in folds, so that none comes through those outside.
+                    let deep = if inside > 0.0 { 1.1 } else { fold };
+                    surface(angle, y - dip, -deep * depth - inside)
                 })
             })
             .collect()
