@@ -37,6 +37,7 @@ pub mod motion;
 pub mod picture;
 pub mod render;
 pub mod scene;
+pub mod sdf;
 
 pub use error::{Error, Result};
 pub use gpu::{AdapterInfo, Gpu};

@@ -1,0 +1,13 @@
+//! Threshold maps of painted face shadows: masks in, one number a texel out. Needs no GPU.
+//!
+//! An artist draws the lit part of a face at a few angles of the light ([`Key`]). [`bake`] finds for each texel the angle
+//! at which it turns dark, by the exact distances to the borders of the two keys round it, so that the border of light
+//! and shade glides from one drawing to the next.
+
+mod distance;
+mod mask;
+mod threshold;
+
+pub use distance::{NEVER, distance_squared};
+pub use mask::Mask;
+pub use threshold::{Key, ThresholdMap, bake};

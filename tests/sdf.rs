@@ -1,0 +1,71 @@
+//! Distances and threshold maps against float64 vectors; the built-in character's face keys through the same code.
+
+use hikage::sdf::{Key, Mask, bake, distance_squared};
+use serde_json::Value;
+
+fn vectors() -> Value {
+    let folder =
+        std::env::var("HIKAGE_ORACLES").unwrap_or(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/oracles").into());
+    let path = format!("{folder}/sdf_edt.json");
+    let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{path}: {e}"));
+    serde_json::from_str(&text).unwrap_or_else(|e| panic!("{path}: {e}"))
+}
+
+fn list(value: &Value) -> &[Value] {
+    value.as_array().map_or(&[], Vec::as_slice)
+}
+
+fn mask(rows: &Value) -> Mask {
+    let rows: Vec<&str> = list(rows).iter().map(|r| r.as_str().expect("a row")).collect();
+    Mask::from_fn(rows[0].len() as u32, rows.len() as u32, |x, y| rows[y as usize].as_bytes()[x as usize] == b'1')
+}
+
+fn numbers(rows: &Value) -> Vec<f64> {
+    list(rows).iter().flat_map(|r| list(r)).map(|n| n.as_f64().expect("a number")).collect()
+}
+
+#[test]
+fn distances_are_exact() {
+    let vectors = vectors();
+    let cases = list(&vectors["cases"]);
+    assert!(!cases.is_empty());
+    for case in cases {
+        let mask = mask(&case["mask"]);
+        for (to, expected) in [(true, "dist2_to_set"), (false, "dist2_to_clear")] {
+            let found: Vec<f64> = distance_squared(&mask, to).into_iter().map(f64::from).collect();
+            assert_eq!(found, numbers(&case[expected]), "{expected}");
+        }
+    }
+}
+
+#[test]
+fn thresholds_match_the_vectors() {
+    let vectors = vectors();
+    let face = &vectors["face"];
+    let angles = list(&face["angles"]).iter().map(|a| a.as_f64().expect("an angle") as f32);
+    let keys: Vec<Key> =
+        angles.zip(list(&face["masks"])).map(|(angle_rad, rows)| Key { angle_rad, mask: mask(rows) }).collect();
+    let map = bake(&keys).expect("nested keys");
+    for (i, (found, expected)) in map.tau.iter().zip(numbers(&face["tau"])).enumerate() {
+        // Stored as f32.
+        assert!((f64::from(*found) - expected).abs() < 1e-6, "texel {i}: {found} for {expected}");
+    }
+}
+
+#[test]
+fn the_built_in_face_keys_bake_and_come_back() {
+    use hikage_character::head::sdf;
+    let keys: Vec<Key> = sdf::angles()
+        .into_iter()
+        .map(|angle| {
+            let picture = sdf::mask(angle);
+            let lit = picture.rgba.iter().map(|p| p[0] > 127).collect();
+            Key { angle_rad: angle.to_radians(), mask: Mask { width: picture.width, height: picture.height, lit } }
+        })
+        .collect();
+    let map = bake(&keys).expect("her keys are nested");
+    for key in &keys {
+        let wrong = map.mask(key.angle_rad).lit.iter().zip(&key.mask.lit).filter(|(a, b)| a != b).count();
+        assert_eq!(wrong, 0, "texels at {} rad", key.angle_rad);
+    }
+}
