@@ -32,6 +32,7 @@ mod error;
 pub mod golden;
 pub mod gpu;
 pub mod import;
+mod look;
 pub mod material;
 pub mod motion;
 pub mod picture;
@@ -41,6 +42,7 @@ pub mod sdf;
 
 pub use error::{Error, Result};
 pub use gpu::{AdapterInfo, Gpu};
+pub use look::Look;
 pub use render::{Background, Channel, GpuMemory, GpuScene, Output, Renderer, View, shaders};
 
 /// The code of the README compiles.

@@ -3,8 +3,8 @@
 use std::mem::{offset_of, size_of};
 
 use hikage::render::uniforms::{
-    AffineRows, DeformGroup, DeformVertex, FrameUniform, MaterialUniform, MorphEntry, PunctualLightUniform,
-    UvTransformUniform,
+    AffineRows, CharacterUniform, DeformGroup, DeformVertex, FrameUniform, MaterialUniform, MorphEntry,
+    PunctualLightUniform, UvTransformUniform,
 };
 
 struct Layout {
@@ -74,6 +74,8 @@ fn structs_match_their_wgsl() {
                 rotation_rad_per_s,
                 alpha_cutoff,
                 normal_scale,
+                face_softness,
+                face_overhead_fade,
                 base_uv,
                 shade_uv,
                 shift_uv,
@@ -82,8 +84,10 @@ fn structs_match_their_wgsl() {
                 rim_mask_uv,
                 outline_mask_uv,
                 animation_mask_uv,
+                face_uv,
             }
         ),
+        layout!("opaque", "Character", CharacterUniform { face_left, face_up, face_forward }),
         layout!(
             "deform",
             "DeformGroup",

@@ -214,6 +214,80 @@ fn outline_moves_by_pixels() {
 }
 
 #[test]
+fn face_light_angle_matches_the_vectors() {
+    let file = vectors("sdf_edt.json");
+    let list = cases(&file, "yaw_cases");
+    let rows: Vec<Vec<f32>> = list.iter().map(|c| numbers(c, &["L", "forward", "up"])).collect();
+    let body = "
+        let l = input3(base); let forward = input3(base + 3u); let up = input3(base + 6u);
+        let local = vec3f(dot(l, cross(up, forward)), dot(l, up), dot(l, forward));
+        output[out] = face_light_angle(local, 0.0);
+        output[out + 1u] = select(0.0, 1.0, local.x < 0.0);";
+    let found = run(&["face_shadow"], body, &rows, 2);
+    for (i, (case, found)) in list.iter().zip(&found).enumerate() {
+        let mirror = f32::from(u8::from(case["mirror"].as_bool().expect("a side")));
+        // Drivers approximate atan2.
+        assert_close("angle of the light", i, found, &[numbers(case, &["threshold"])[0], mirror], 5e-5);
+    }
+}
+
+/// Thresholds × angles of the light in steps of 1 degree: what is lit only shrinks, sides mirror to the bit, the reserved
+/// codes hold at any softness, and half is reached at the threshold.
+#[test]
+fn a_face_darkens_once_and_the_same_on_both_sides() {
+    const THRESHOLDS: usize = 33;
+    let rows: Vec<Vec<f32>> = (0..THRESHOLDS)
+        .flat_map(|t| (0..=180).map(move |degrees| (t as f32 / (THRESHOLDS - 1) as f32, degrees as f32)))
+        .flat_map(|(tau, degrees)| [0.002, 0.02, 0.2].map(|softness| vec![tau, degrees.to_radians(), softness]))
+        .collect();
+    let body = "
+        let tau = input[base]; let yaw = input[base + 1u]; let softness = input[base + 2u];
+        let l = vec3f(max(sin(yaw), 1e-9), 0.0, cos(yaw));
+        output[out] = face_lit(vec2f(0.37, tau), l, softness, 0.35);
+        output[out + 1u] = face_lit(vec2f(tau, 0.37), vec3f(-l.x, 0.0, l.z), softness, 0.35);";
+    let found = run(&["face_shadow"], body, &rows, 2);
+    let mut before: std::collections::HashMap<(u32, u32), f32> = std::collections::HashMap::new();
+    for (row, found) in rows.iter().zip(&found) {
+        let [tau, yaw, softness] = [row[0], row[1], row[2]];
+        assert!(found[0].to_bits() == found[1].to_bits(), "sides differ at {row:?}: {found:?}");
+        let lit = found[0];
+        assert!((0.0..=1.0).contains(&lit), "{row:?}: {lit}");
+        let last = before.insert((tau.to_bits(), softness.to_bits()), lit);
+        assert!(last.is_none_or(|last| lit <= last), "{row:?} lights up again: {last:?} to {lit}");
+        if tau == 0.0 || tau == 1.0 {
+            assert_eq!(lit, tau, "a reserved code at {row:?}");
+        } else if (yaw / std::f32::consts::PI - tau).abs() < 1e-6 {
+            assert!((lit - 0.5).abs() < 1e-3, "{row:?}: {lit} at the threshold");
+        }
+    }
+}
+
+#[test]
+fn face_light_from_above_has_no_side() {
+    // Heights of the light over the horizon, 0..=90 degrees, from behind: the angle falls to that of the front.
+    let rows: Vec<Vec<f32>> = (0..=90).map(|d| vec![(d as f32).to_radians()]).collect();
+    let body = "
+        let l = vec3f(1e-4, sin(input[base]), -cos(input[base]));
+        output[out] = face_light_angle(normalize(l), 0.35);
+        output[out + 1u] = face_light_angle(vec3f(0.0, 1.0, 0.0), 0.35);";
+    let found = run(&["face_shadow"], body, &rows, 2);
+    assert!((found[0][0] - 1.0).abs() < 1e-3, "from behind: {}", found[0][0]);
+    assert!(found.windows(2).all(|w| w[1][0] <= w[0][0] + 1e-5), "it only fades");
+    assert!(found[90][0] < 1e-3 && found.iter().all(|f| f[1] == 0.0), "straight above: {:?}", found[90]);
+}
+
+#[test]
+fn region_and_strength_blend_into_normal_shading() {
+    let rows =
+        vec![vec![0.2, 0.9, 0.0, 1.0], vec![0.2, 0.9, 1.0, 1.0], vec![0.2, 0.9, 0.0, 0.0], vec![0.2, 0.9, 0.5, 0.5]];
+    let body = "output[out] = face_shading(input[base], input[base + 1u], input[base + 2u], input[base + 3u]);";
+    let found = run(&["face_shadow"], body, &rows, 1);
+    for (i, (found, expected)) in found.iter().zip([0.9, 0.2, 0.2, 0.375]).enumerate() {
+        assert_close("face shading", i, found, &[expected], 1e-6);
+    }
+}
+
+#[test]
 fn octahedral_pairs_keep_unit_vectors() {
     let mut rows = Vec::new();
     for i in 0..500 {

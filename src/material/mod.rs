@@ -2,6 +2,7 @@
 
 mod alpha;
 mod base;
+mod face_shadow;
 mod matcap;
 mod outline;
 mod rim;
@@ -10,6 +11,7 @@ mod uv_animation;
 
 pub use alpha::{Alpha, AlphaMode};
 pub use base::{Base, Emission, NormalMap, TextureRef, UvTransform};
+pub use face_shadow::FaceShadow;
 pub use matcap::Matcap;
 pub use outline::{Outline, OutlineWidth};
 pub use rim::Rim;
@@ -40,6 +42,8 @@ pub struct Material {
     pub uv_animation: UvAnimation,
     /// How light becomes colour.
     pub shading: Shading,
+    /// Shadow of a face by a threshold map. Default: none.
+    pub face_shadow: Option<FaceShadow>,
     /// A picture of light looked up by the view-space normal. Default: none.
     pub matcap: Option<Matcap>,
     /// Light along the contour.

@@ -38,6 +38,7 @@ impl GpuScene {
 /// What every geometry pass binds before it draws.
 pub(crate) fn bind_scene(pass: &mut wgpu::RenderPass<'_>, scene: &GpuScene, frame: &wgpu::BindGroup) {
     pass.set_bind_group(0, frame, &[]);
+    pass.set_bind_group(1, &scene.character_group, &[]);
     pass.set_vertex_buffer(0, scene.deform.deformed.slice(..));
     pass.set_vertex_buffer(1, scene.static_vertices.slice(..));
     pass.set_vertex_buffer(2, scene.instances.slice(..));

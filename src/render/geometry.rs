@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use glam::{Mat4, Vec3};
+use glam::{Mat4, Quat, Vec3};
 
 use super::{
     pass::deform::DeformInput,
@@ -10,7 +10,7 @@ use super::{
 };
 use crate::{
     material::AlphaMode,
-    scene::{Influences, MorphTarget, Primitive, Scene, Skin},
+    scene::{HumanBone, Influences, MorphTarget, Primitive, Scene, Skin},
 };
 
 /// What turns a [`Pose`] into matrices and weights, in the order of the GPU buffers.
@@ -19,6 +19,8 @@ pub(crate) struct Rig {
     pub palettes: Vec<Palette>,
     /// Nodes whose morph weights follow each other in the weight buffer, with their number of targets.
     pub weights: Vec<(usize, usize)>,
+    /// Node of the head bone and its rotation at rest; the face looks to +Z then.
+    pub head: Option<(usize, Quat)>,
 }
 
 #[derive(Debug)]
@@ -59,6 +61,7 @@ impl Geometry {
     pub fn gather(scene: &Scene) -> Self {
         let mut geometry = Self::default();
         let rest = scene.rest_world_from_nodes();
+        geometry.rig.head = scene.bone_node(HumanBone::Head).and_then(|n| Some((n, rotation(*rest.get(n)?))));
         let mut skin_palettes: HashMap<usize, u32> = HashMap::new();
         let mut parts: Vec<(u32, usize, &Primitive, DeformGroup, Mat4)> = Vec::new();
         for (node_index, mesh) in scene.mesh_nodes() {
@@ -212,6 +215,11 @@ fn pack_influences(influences: &Influences, out: &mut Vec<u32>) {
         }
         out.extend(joints.iter().zip(&codes).map(|(joint, code)| u32::from(*joint) | (*code as u32) << 16));
     }
+}
+
+/// The rotation in a matrix of rotation, translation and scale.
+pub(crate) fn rotation(matrix: Mat4) -> Quat {
+    matrix.to_scale_rotation_translation().1
 }
 
 fn skin_matrix(skin: &Skin, rest: &[Mat4], joint: usize) -> Mat4 {

@@ -51,6 +51,8 @@ impl Default for Output {
 pub(crate) struct Layouts {
     /// Group 0.
     pub frame: wgpu::BindGroupLayout,
+    /// Group 1.
+    pub character: wgpu::BindGroupLayout,
     /// Group 2.
     pub material: wgpu::BindGroupLayout,
     /// Of every pass that draws surfaces.
@@ -294,9 +296,13 @@ impl Layouts {
             entries: &[entry(0, both, uniform(size_of::<FrameUniform>() as u64))],
         });
         let mut entries = vec![entry(0, both, uniform(size_of::<uniforms::MaterialUniform>() as u64))];
-        for slot in 0..9 {
+        for slot in 0..10 {
             // The width mask of the outline and the mask of the UV animation that moves it are read by vertices.
-            let stages = if slot >= 7 { both } else { wgpu::ShaderStages::FRAGMENT };
+            let stages = if matches!(slot, 7 | 8) {
+                both
+            } else {
+                wgpu::ShaderStages::FRAGMENT
+            };
             entries.push(entry(
                 1 + 2 * slot,
                 stages,
@@ -311,12 +317,16 @@ impl Layouts {
         let material = gpu
             .device
             .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("material"), entries: &entries });
+        let character = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("character"),
+            entries: &[entry(0, wgpu::ShaderStages::VERTEX, uniform(size_of::<uniforms::CharacterUniform>() as u64))],
+        });
         let surface = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("surface"),
-            bind_group_layouts: &[Some(&frame), None, Some(&material)],
+            bind_group_layouts: &[Some(&frame), Some(&character), Some(&material)],
             immediate_size: 0,
         });
-        Self { frame, material, surface }
+        Self { frame, character, material, surface }
     }
 }
 

@@ -71,7 +71,9 @@ pub struct MaterialUniform {
     pub rotation_rad_per_s: f32,
     pub alpha_cutoff: f32,
     pub normal_scale: f32,
-    pub padding: [f32; 3],
+    pub face_softness: f32,
+    pub face_overhead_fade: f32,
+    pub padding: f32,
     pub base_uv: UvTransformUniform,
     pub shade_uv: UvTransformUniform,
     pub shift_uv: UvTransformUniform,
@@ -80,6 +82,19 @@ pub struct MaterialUniform {
     pub rim_mask_uv: UvTransformUniform,
     pub outline_mask_uv: UvTransformUniform,
     pub animation_mask_uv: UvTransformUniform,
+    pub face_uv: UvTransformUniform,
+}
+
+/// `Character` of `wgsl/bind/character.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct CharacterUniform {
+    pub face_left: [f32; 3],
+    pub padding_left: f32,
+    pub face_up: [f32; 3],
+    pub padding_up: f32,
+    pub face_forward: [f32; 3],
+    pub padding_forward: f32,
 }
 
 /// `DeformVertex` of `wgsl/pass/deform.wgsl`, and the first vertex stream of every draw.
@@ -199,6 +214,7 @@ impl MaterialUniform {
             Shading::Unlit => crate::material::Toon::default(),
         };
         let outline = material.outline.unwrap_or_default();
+        let face = material.face_shadow.unwrap_or_default();
         let cutoff = match material.alpha.mode {
             crate::material::AlphaMode::Mask => material.alpha.cutoff,
             _ => 0.5,
@@ -226,7 +242,9 @@ impl MaterialUniform {
             rotation_rad_per_s: material.uv_animation.rotation_rad_per_s,
             alpha_cutoff: cutoff,
             normal_scale: material.normal_map.map_or(1.0, |n| n.scale),
-            padding: [0.0; 3],
+            face_softness: face.softness,
+            face_overhead_fade: face.overhead_fade,
+            padding: 0.0,
             base_uv: UvTransformUniform::new(material.base.texture),
             shade_uv: UvTransformUniform::new(toon.shade_texture),
             shift_uv: UvTransformUniform::new(toon.shift_texture),
@@ -235,6 +253,24 @@ impl MaterialUniform {
             rim_mask_uv: UvTransformUniform::new(material.rim.mask),
             outline_mask_uv: UvTransformUniform::new(outline.width_mask),
             animation_mask_uv: UvTransformUniform::new(material.uv_animation.mask),
+            face_uv: UvTransformUniform::new(Some(face.map)),
+        }
+    }
+}
+
+impl CharacterUniform {
+    /// Uniform of a character whose head is turned so from its rest.
+    pub fn new(head: glam::Quat) -> Self {
+        // A bone that is scaled to nothing has no rotation.
+        let head = Some(head.normalize()).filter(|h| h.is_finite()).unwrap_or_default();
+        let axis = |axis: Vec3| (head * axis).to_array();
+        Self {
+            face_left: axis(Vec3::X),
+            padding_left: 0.0,
+            face_up: axis(Vec3::Y),
+            padding_up: 0.0,
+            face_forward: axis(Vec3::Z),
+            padding_forward: 0.0,
         }
     }
 }

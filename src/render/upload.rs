@@ -2,16 +2,16 @@
 
 use std::{borrow::Cow, collections::BTreeMap};
 
-use glam::Mat4;
+use glam::{Mat4, Quat};
 use wgpu::util::DeviceExt;
 
 use super::{
     Renderer,
     draw_list::Draw,
-    geometry::{Geometry, Palette, Part, Rig},
+    geometry::{Geometry, Palette, Part, Rig, rotation},
     pass::{Driven, SurfaceFlags, deform::DeformBuffers},
     textures::{Encoding, TextureSet},
-    uniforms::{AffineRows, MaterialUniform},
+    uniforms::{AffineRows, CharacterUniform, MaterialUniform},
 };
 use crate::{
     Gpu, Result,
@@ -31,6 +31,8 @@ pub struct GpuScene {
     pub(crate) instances: wgpu::Buffer,
     pub(crate) instance_capacity: usize,
     pub(crate) instance_rows: Vec<AffineRows>,
+    pub(crate) character_group: wgpu::BindGroup,
+    character: wgpu::Buffer,
     pub(crate) materials: wgpu::Buffer,
     pub(crate) material_groups: Vec<wgpu::BindGroup>,
     pub(crate) draws: Vec<Draw>,
@@ -123,6 +125,12 @@ impl Renderer {
 
         let indices = buffer("indices", bytemuck::cast_slice(&geometry.indices), U::INDEX);
         let static_vertices = buffer("static vertices", bytemuck::cast_slice(&geometry.static_vertices), U::VERTEX);
+        let character = buffer("character", &[0; size_of::<CharacterUniform>()], U::UNIFORM | U::COPY_DST);
+        let character_group = self.gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("character"),
+            layout: &self.layouts.character,
+            entries: &[wgpu::BindGroupEntry { binding: 0, resource: character.as_entire_binding() }],
+        });
         let deform = self.deform.buffers(&self.gpu, &geometry.deform_input());
         let draws = self.make_draws(scene, &geometry.parts);
         let mut uploaded = GpuScene {
@@ -132,6 +140,8 @@ impl Renderer {
             instances: instance_buffer(&self.gpu, 1),
             instance_capacity: 1,
             instance_rows: Vec::new(),
+            character_group,
+            character,
             materials,
             material_groups,
             transparent_order: Vec::with_capacity(draws.len()),
@@ -237,6 +247,8 @@ impl GpuScene {
             let of_node = pose.morph_weights.get(node).map_or(&[] as &[f32], Vec::as_slice);
             weights.extend((0..targets).map(|t| of_node.get(t).copied().unwrap_or(0.0)));
         }
+        let head = self.rig.head.map_or(Quat::IDENTITY, |(node, rest)| rotation(matrix(node)) * rest.inverse());
+        gpu.queue.write_buffer(&self.character, 0, bytemuck::bytes_of(&CharacterUniform::new(head)));
         gpu.queue.write_buffer(&self.deform.joints, 0, bytemuck::cast_slice(joints));
         if !weights.is_empty() {
             gpu.queue.write_buffer(&self.deform.weights, 0, bytemuck::cast_slice(weights));
@@ -294,7 +306,7 @@ pub(crate) fn instance_buffer(gpu: &Gpu, count: usize) -> wgpu::Buffer {
 }
 
 /// Textures of a material in the order of `wgsl/bind/material.wgsl`.
-fn texture_slots(material: &Material) -> [(Option<usize>, Encoding); 9] {
+fn texture_slots(material: &Material) -> [(Option<usize>, Encoding); 10] {
     let of = |r: Option<TextureRef>| r.map(|r| r.texture);
     let (shade, shift) = match &material.shading {
         Shading::Toon(toon) => (of(toon.shade_texture), of(toon.shift_texture)),
@@ -310,6 +322,7 @@ fn texture_slots(material: &Material) -> [(Option<usize>, Encoding); 9] {
         (of(material.rim.mask), Encoding::Srgb),
         (material.outline.and_then(|o| of(o.width_mask)), Encoding::Linear),
         (of(material.uv_animation.mask), Encoding::Linear),
+        (material.face_shadow.map(|f| f.map.texture), Encoding::Linear),
     ]
 }
 

@@ -5,9 +5,11 @@
 //! and shade glides from one drawing to the next.
 
 mod distance;
+mod guide;
 mod mask;
 mod threshold;
 
 pub use distance::{NEVER, distance_squared};
+pub use guide::face_map;
 pub use mask::Mask;
 pub use threshold::{Key, ThresholdMap, bake};

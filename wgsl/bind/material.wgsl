@@ -27,6 +27,9 @@ struct Material {
     rotation_rad_per_s: f32,
     alpha_cutoff: f32,
     normal_scale: f32,
+    // Angle over pi, and horizontal length of the direction to the light.
+    face_softness: f32,
+    face_overhead_fade: f32,
     base_uv: UvTransform,
     shade_uv: UvTransform,
     shift_uv: UvTransform,
@@ -35,6 +38,7 @@ struct Material {
     rim_mask_uv: UvTransform,
     outline_mask_uv: UvTransform,
     animation_mask_uv: UvTransform,
+    face_uv: UvTransform,
 }
 
 @group(2) @binding(0) var<uniform> material: Material;
@@ -56,3 +60,5 @@ struct Material {
 @group(2) @binding(16) var outline_mask_sampler: sampler;
 @group(2) @binding(17) var animation_mask_texture: texture_2d<f32>;
 @group(2) @binding(18) var animation_mask_sampler: sampler;
+@group(2) @binding(19) var face_texture: texture_2d<f32>;
+@group(2) @binding(20) var face_sampler: sampler;

@@ -19,10 +19,13 @@ override VERTEX_COLOR: bool = false;
 override ALPHA_MASK: bool = false;
 // Alpha is the share of a pixel's samples instead of a cut.
 override ALPHA_COVERAGE: bool = false;
+// The shade of a face comes from a threshold map.
+override FACE_SHADOW: bool = false;
 
 fn surface_options() -> SurfaceOptions {
     return SurfaceOptions(
         UNLIT, BASE_TEXTURE, SHADE_TEXTURE, SHADE_IS_BASE, SHIFT_TEXTURE, NORMAL_MAP, EMISSION_TEXTURE, MATCAP, RIM,
-        RIM_MASK, UV_TRANSFORMS, UV_ANIMATION, UV_ANIMATION_MASK, VERTEX_COLOR, ALPHA_MASK, ALPHA_COVERAGE
+        RIM_MASK, UV_TRANSFORMS, UV_ANIMATION, UV_ANIMATION_MASK, VERTEX_COLOR, ALPHA_MASK, ALPHA_COVERAGE,
+        FACE_SHADOW
     );
 }

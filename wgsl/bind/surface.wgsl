@@ -4,8 +4,9 @@ import package::bind::frame::frame;
 import package::bind::material::{
     UvTransform, material, base_texture, base_sampler, shade_texture, shade_sampler, shift_texture, shift_sampler,
     normal_texture, normal_sampler, emission_texture, emission_sampler, matcap_texture, matcap_sampler,
-    rim_mask_texture, rim_mask_sampler, animation_mask_texture, animation_mask_sampler,
+    rim_mask_texture, rim_mask_sampler, animation_mask_texture, animation_mask_sampler, face_texture, face_sampler,
 };
+import package::lib::face_shadow::{face_lit, face_shading};
 import package::lib::light::{accumulated_n_dot_l, distance_attenuation, luminance, spot_attenuation};
 import package::lib::mtoon::{
     mtoon_animate_uv, mtoon_direct, mtoon_gi, mtoon_matcap_uv, mtoon_parametric_rim, mtoon_rim, mtoon_shading,
@@ -30,6 +31,7 @@ struct SurfaceOptions {
     vertex_color: bool,
     alpha_mask: bool,
     alpha_coverage: bool,
+    face_shadow: bool,
 }
 
 struct SurfaceInput {
@@ -38,6 +40,8 @@ struct SurfaceInput {
     tangent: vec4f,
     uv: vec4f,
     color: vec4f,
+    // Direction to the directional light in the frame of the face.
+    face_light: vec3f,
 }
 
 // UVs of one texture: animation first, then KHR_texture_transform (MToon, "Compatibility with KHR_texture_transform").
@@ -142,6 +146,8 @@ fn shade_surface(options: SurfaceOptions, in: SurfaceInput) -> vec4f {
 
     var light = frame.light_color;
     var n_dot_l = dot(normal, frame.to_light);
+    // Share of the directional light in all of them.
+    var directional = 1.0;
     if frame.punctual_count > 0u {
         var weight = luminance(light);
         var sum = n_dot_l * weight;
@@ -162,9 +168,15 @@ fn shade_surface(options: SurfaceOptions, in: SurfaceInput) -> vec4f {
             sum += dot(normal, l) * w;
         }
         n_dot_l = accumulated_n_dot_l(sum, weight);
+        directional = luminance(frame.light_color) / max(weight, 1e-6);
     }
 
-    let shading = mtoon_shading(n_dot_l, shift, material.toony);
+    var shading = mtoon_shading(n_dot_l, shift, material.toony);
+    if options.face_shadow {
+        let map = textureSample(face_texture, face_sampler, texture_uv(options, uv, material.face_uv));
+        let lit = face_lit(map.rg, in.face_light, material.face_softness, material.face_overhead_fade);
+        shading = face_shading(shading, lit, map.b, map.a * directional);
+    }
     let gi = mtoon_gi(ambient(normal.y), frame.ambient_sky, frame.ambient_ground, material.gi_equalization);
     var color = mtoon_direct(base.rgb, shade, shading, light) + gi * base.rgb + emission;
 

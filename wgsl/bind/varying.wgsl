@@ -1,7 +1,8 @@
 // What goes from vertex to fragment for a surface.
+import package::bind::character::character;
 import package::bind::frame::frame;
 import package::bind::surface::{SurfaceInput, SurfaceOptions};
-import package::bind::vertex::{VertexInput, bitangent_sign, world_direction, world_position};
+import package::bind::vertex::{VertexInput, bitangent_sign, world_direction, world_position, world_rotated};
 
 struct Varying {
     @builtin(position) clip_position: vec4f,
@@ -10,6 +11,7 @@ struct Varying {
     @location(2) tangent: vec4f,
     @location(3) uv: vec4f,
     @location(4) color: vec4f,
+    @location(5) @interpolate(flat) face_light: vec3f,
 }
 
 fn surface_varying(options: SurfaceOptions, v: VertexInput) -> Varying {
@@ -18,13 +20,22 @@ fn surface_varying(options: SurfaceOptions, v: VertexInput) -> Varying {
     if options.normal_map {
         tangent = vec4f(world_direction(v, v.frame.y), bitangent_sign(v.frame.y));
     }
+    var face_light = vec3f(0.0, 0.0, 1.0);
+    if options.face_shadow {
+        face_light = vec3f(
+            dot(frame.to_light, world_rotated(v, character.face_left)),
+            dot(frame.to_light, world_rotated(v, character.face_up)),
+            dot(frame.to_light, world_rotated(v, character.face_forward)),
+        );
+    }
     return Varying(
-        frame.clip_from_world * vec4f(position, 1.0), position, world_direction(v, v.frame.x), tangent, v.uv, v.color
+        frame.clip_from_world * vec4f(position, 1.0), position, world_direction(v, v.frame.x), tangent, v.uv, v.color,
+        face_light
     );
 }
 
 // A back face is seen with its normal turned (glTF doubleSided).
 fn surface_input(in: Varying, front_facing: bool) -> SurfaceInput {
     let normal = select(-in.normal, in.normal, front_facing);
-    return SurfaceInput(in.world_position, normal, in.tangent, in.uv, in.color);
+    return SurfaceInput(in.world_position, normal, in.tangent, in.uv, in.color, in.face_light);
 }

@@ -24,7 +24,11 @@ fn world_position(v: VertexInput, position: vec3f) -> vec3f {
 
 // Instances rotate, move and scale evenly, so normals need no inverse transpose.
 fn world_direction(v: VertexInput, packed: u32) -> vec3f {
-    let d = unit_from_octahedral(unpack2x16snorm(packed));
+    return world_rotated(v, unit_from_octahedral(unpack2x16snorm(packed)));
+}
+
+// A unit direction of the character in the world.
+fn world_rotated(v: VertexInput, d: vec3f) -> vec3f {
     return normalize(vec3f(dot(v.world_row_x.xyz, d), dot(v.world_row_y.xyz, d), dot(v.world_row_z.xyz, d)));
 }
 

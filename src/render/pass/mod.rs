@@ -63,6 +63,7 @@ pub(crate) struct SurfaceFlags {
     pub vertex_color: bool,
     pub alpha_mask: bool,
     pub alpha_coverage: bool,
+    pub face_shadow: bool,
 }
 
 impl SurfaceFlags {
@@ -85,6 +86,7 @@ impl SurfaceFlags {
         let outline_mask = material.outline.and_then(|o| o.width_mask);
         let uv_animation = material.uv_animation.is_active();
         let animation_mask = material.uv_animation.mask.filter(|_| uv_animation);
+        let face_shadow = material.face_shadow.filter(|_| toon.is_some());
         let used = [
             material.base.texture,
             shade_texture,
@@ -94,6 +96,7 @@ impl SurfaceFlags {
             rim_mask,
             outline_mask,
             animation_mask,
+            face_shadow.map(|f| f.map),
         ];
         let moved = |t: &TextureRef| t.uv_set != 0 || t.transform != UvTransform::default();
         Self {
@@ -113,6 +116,7 @@ impl SurfaceFlags {
             vertex_color: has_vertex_colors,
             alpha_mask: material.alpha.mode == AlphaMode::Mask,
             alpha_coverage: false,
+            face_shadow: face_shadow.is_some(),
         }
     }
 
@@ -135,6 +139,7 @@ impl SurfaceFlags {
             ("VERTEX_COLOR", self.vertex_color),
             ("ALPHA_MASK", self.alpha_mask),
             ("ALPHA_COVERAGE", self.alpha_coverage),
+            ("FACE_SHADOW", self.face_shadow),
         ]
         .map(|(name, on)| (name, f64::from(u8::from(on))))
         .to_vec()

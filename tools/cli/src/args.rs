@@ -34,6 +34,17 @@ impl From<ViewName> for Framing {
     }
 }
 
+/// `--look`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum LookName {
+    /// As the file describes the materials.
+    #[default]
+    Plain,
+    /// The face of a shipped anime game.
+    Anime,
+}
+
 /// `WxH`, pixels.
 pub(crate) fn size(text: &str) -> Result<[u32; 2], String> {
     let side = |t: &str| t.parse::<u32>().ok().filter(|s| (1..=MAX_SIDE).contains(s));

@@ -11,7 +11,7 @@ use hikage::scene::Scene;
 use hikage::{Background, Channel, GpuMemory, Output, Renderer, View};
 use serde::Serialize;
 
-use crate::args::{self, ViewName};
+use crate::args::{self, LookName, ViewName};
 use crate::failure::{Failure, warn};
 use crate::shot::Shot;
 use crate::spinner::Spinner;
@@ -65,6 +65,9 @@ pub(crate) struct Args {
     /// Pose of the humanoid [default: rest; relaxed for the built-in character].
     #[arg(long, value_name = "rest|relaxed|bend|offer", value_parser = args::stance)]
     pose: Option<Stance>,
+    /// What is made of the model: plain as in the file, or an anime face.
+    #[arg(long, value_enum, value_name = "plain|anime", default_value_t = LookName::Plain, hide_possible_values = true)]
+    look: LookName,
     /// File with camera, light and background; see below.
     #[arg(long, value_name = "SHOT.json")]
     shot: Option<PathBuf>,
@@ -175,6 +178,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     spinner.step("loading the model");
     let mut scene = timed(&mut ms.load, || setup::load(args.model.as_deref()))?;
     show_warnings(&scene.warnings);
+    setup::look(args.look, args.model.as_deref())?.apply(&mut scene);
     let at_ease = if args.model.is_none() {
         Stance::Relaxed
     } else {

@@ -4,10 +4,13 @@ use std::fs::File;
 use std::io::Read as _;
 use std::path::Path;
 
-use hikage::Gpu;
 use hikage::motion::{Pose, Stance};
 use hikage::scene::Scene;
+use hikage::sdf::{Key, Mask, bake};
+use hikage::{Gpu, Look};
+use hikage_character::head::sdf;
 
+use crate::args::LookName;
 use crate::deadline;
 use crate::failure::Failure;
 
@@ -49,6 +52,23 @@ pub(crate) fn load(model: Option<&Path>) -> Result<Scene, Failure> {
 
 /// Name of the built-in character's file.
 pub(crate) const BUILT_IN: &str = "hikage.vrm";
+
+/// The look of this name, for a model or the built-in character, whose face has painted keys.
+pub(crate) fn look(name: LookName, model: Option<&Path>) -> Result<Look, Failure> {
+    match (name, model) {
+        (LookName::Plain, _) => Ok(Look::Plain),
+        (LookName::Anime, Some(_)) => Ok(Look::Anime { face: None }),
+        (LookName::Anime, None) => {
+            let key = |angle: f32| {
+                let picture = sdf::mask(angle);
+                let lit = picture.rgba.iter().map(|p| p[0] > 127).collect();
+                Key { angle_rad: angle.to_radians(), mask: Mask { width: picture.width, height: picture.height, lit } }
+            };
+            let keys: Vec<Key> = sdf::angles().into_iter().map(key).collect();
+            Ok(Look::Anime { face: Some(bake(&keys)?) })
+        }
+    }
+}
 
 /// The model in a stance with these expressions.
 pub(crate) fn pose(scene: &Scene, stance: Stance, expressions: &[(String, f32)]) -> Result<Pose, Failure> {

@@ -1,0 +1,60 @@
+//! Looks: what is added to a character as its file describes it.
+
+use crate::material::{FaceShadow, TextureRef};
+use crate::scene::{Filter, Image, Sampler, Scene, Texture, Wrap};
+use crate::sdf::{ThresholdMap, face_map};
+
+/// What a character is made to look like.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Look {
+    /// As the file says.
+    #[default]
+    Plain,
+    /// The face of a shipped anime game: its shadow is a drawn shape, not a matter of normals.
+    Anime {
+        /// Threshold map painted for light from the character's left, over the face's texture; the other side mirrors
+        /// it. `None`: one is made from the mesh of each face.
+        face: Option<ThresholdMap>,
+    },
+}
+
+impl Look {
+    /// Changes the materials of a scene, before its upload. Roles decide what is a face; a scene without one stays as it
+    /// is, and so does a face whose two sides share their texture coordinates.
+    pub fn apply(&self, scene: &mut Scene) {
+        let Self::Anime { face } = self else { return };
+        for material in 0..scene.materials.len() {
+            let Some(mut map) = face_map(scene, material) else { continue };
+            if let Some(painted) = face {
+                map = over(&painted.mirrored_image(), &map);
+            }
+            let texture = add_texture(scene, map);
+            scene.materials[material].face_shadow =
+                Some(FaceShadow { map: TextureRef { texture, ..TextureRef::default() }, ..FaceShadow::default() });
+        }
+    }
+}
+
+/// The painted thresholds, with the regions of the map from the mesh.
+fn over(painted: &Image, mesh: &Image) -> Image {
+    let mut map = painted.clone();
+    let [width, height] = [map.width as usize, map.height as usize];
+    for (i, pixel) in map.pixels.chunks_exact_mut(4).enumerate() {
+        let (x, y) = (i % width * mesh.width as usize / width, i / width * mesh.height as usize / height);
+        pixel[2] = mesh.pixels[(y * mesh.width as usize + x) * 4 + 2];
+    }
+    map
+}
+
+fn add_texture(scene: &mut Scene, image: Image) -> usize {
+    scene.images.push(image);
+    let sampler = Sampler {
+        wrap_u: Wrap::Clamp,
+        wrap_v: Wrap::Clamp,
+        mag: Filter::Linear,
+        min: Filter::Linear,
+        mip: Some(Filter::Linear),
+    };
+    scene.textures.push(Texture { image: scene.images.len() - 1, sampler });
+    scene.textures.len() - 1
+}

@@ -1,0 +1,185 @@
+//! Threshold maps from a face's own mesh: a clean border on any character, without painting.
+
+use std::collections::BTreeSet;
+use std::f32::consts::PI;
+
+use glam::{Mat4, Vec2, Vec3};
+use rayon::prelude::*;
+
+use crate::scene::{HumanBone, Image, Primitive, Role, Scene};
+
+/// Side of a map, texels.
+const SIDE: usize = 512;
+/// Share of the mesh's own normals; the rest is the proxy's.
+const OWN: f32 = 0.25;
+/// Texels that the map is grown beyond the triangles, so that filtering meets no hole.
+const GROWN: usize = 6;
+
+/// One texel: threshold for light from the right and from the left, share of normal shading, and whether it is covered.
+#[derive(Clone, Copy)]
+struct Texel {
+    value: Vec3,
+    covered: bool,
+}
+
+/// A vertex of the face.
+struct Corner {
+    uv: Vec2,
+    value: Vec3,
+}
+
+/// The map of the parts of a material that are a face, in the layout of [`FaceShadow`](crate::material::FaceShadow):
+/// light is measured against normals smoothed towards an ellipsoid round the head. What does not follow the head bone, or
+/// looks backwards, is left to normal shading. `None` where the material has no face with texture coordinates, or where
+/// both sides of the face share them: one texel cannot hold the angles of two.
+#[must_use]
+pub fn face_map(scene: &Scene, material: usize) -> Option<Image> {
+    let head = scene.bone_node(HumanBone::Head)?;
+    let world = scene.rest_world_from_nodes();
+    let below = descendants(scene, head);
+    let faces: Vec<(usize, &Primitive)> = scene
+        .mesh_nodes()
+        .flat_map(|(node, mesh)| mesh.primitives.iter().map(move |p| (node, p)))
+        .filter(|(_, p)| p.material == material && p.role == Role::Face && !p.uvs.first().is_none_or(Vec::is_empty))
+        .collect();
+    let placed: Vec<(Mat4, Vec<f32>)> =
+        faces.iter().map(|(node, p)| (placement(scene, &world, *node), shares(scene, *node, p, &below))).collect();
+
+    // The proxy: an ellipsoid round what follows the head.
+    let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+    for ((_, primitive), (matrix, shares)) in faces.iter().zip(&placed) {
+        for (position, share) in primitive.positions.iter().zip(shares) {
+            if *share > 0.9 {
+                let p = matrix.transform_point3(Vec3::from(*position));
+                (low, high) = (low.min(p), high.max(p));
+            }
+        }
+    }
+    let (middle, half) = ((low + high) * 0.5, (high - low) * 0.5);
+    if !(half.is_finite() && half.min_element() > 1e-4) {
+        return None;
+    }
+    let mut shared = 0usize;
+    let mut texels = vec![Texel { value: Vec3::Z, covered: false }; SIDE * SIDE];
+    for ((_, primitive), (matrix, shares)) in faces.iter().zip(&placed) {
+        let corners: Vec<Corner> =
+            (0..primitive.positions.len()).map(|v| corner(primitive, v, matrix, shares[v], middle, half)).collect();
+        for t in primitive.indices.chunks_exact(3) {
+            let corner = |i: usize| corners.get(t[i] as usize);
+            if let (Some(a), Some(b), Some(c)) = (corner(0), corner(1), corner(2)) {
+                shared += fill(&mut texels, [a, b, c]);
+            }
+        }
+    }
+    if shared * 20 > texels.iter().filter(|t| t.covered).count() {
+        return None;
+    }
+    for _ in 0..GROWN {
+        grow(&mut texels);
+    }
+    let code = |x: f32| (x.clamp(0.0, 1.0) * 255.0).round() as u8;
+    let pixels =
+        texels.par_iter().flat_map_iter(|t| [code(t.value.x), code(t.value.y), code(t.value.z), 255]).collect();
+    let name = "face shadow".to_owned();
+    Some(Image { name, width: SIDE as u32, height: SIDE as u32, pixels, source_bits: 8, ..Image::default() })
+}
+
+/// A node and all below it.
+fn descendants(scene: &Scene, root: usize) -> BTreeSet<usize> {
+    let mut set = BTreeSet::from([root]);
+    // Parents stand before their children.
+    for (index, node) in scene.nodes.iter().enumerate() {
+        if node.parent.is_some_and(|p| set.contains(&p)) {
+            set.insert(index);
+        }
+    }
+    set
+}
+
+/// From mesh to world at rest: any one joint takes a skin there.
+fn placement(scene: &Scene, world: &[Mat4], node: usize) -> Mat4 {
+    let skin = scene.nodes[node].skin.and_then(|s| scene.skins.get(s));
+    let joint = skin.and_then(|s| Some(*world.get(*s.joints.first()?)? * *s.joint_from_mesh.first()?));
+    joint.unwrap_or_else(|| world.get(node).copied().unwrap_or_default())
+}
+
+/// How much of each vertex follows the head.
+fn shares(scene: &Scene, node: usize, primitive: &Primitive, below: &BTreeSet<usize>) -> Vec<f32> {
+    let skin = scene.nodes[node].skin.and_then(|s| scene.skins.get(s));
+    let per_vertex = primitive.influences.per_vertex;
+    let (Some(skin), true) = (skin, per_vertex > 0) else {
+        return vec![f32::from(u8::from(below.contains(&node))); primitive.positions.len()];
+    };
+    let follows = |joint: &u16| skin.joints.get(usize::from(*joint)).is_some_and(|n| below.contains(n));
+    let vertices = primitive.influences.joints.chunks(per_vertex).zip(primitive.influences.weights.chunks(per_vertex));
+    let mut shares: Vec<f32> = vertices
+        .map(|(joints, weights)| joints.iter().zip(weights).filter(|(j, _)| follows(j)).map(|(_, w)| w).sum())
+        .collect();
+    shares.resize(primitive.positions.len(), 0.0);
+    shares
+}
+
+fn corner(primitive: &Primitive, v: usize, matrix: &Mat4, share: f32, middle: Vec3, half: Vec3) -> Corner {
+    let position = matrix.transform_point3(Vec3::from(primitive.positions[v]));
+    let own = primitive.normals.get(v).map_or(Vec3::Z, |n| matrix.transform_vector3(Vec3::from(*n)));
+    let proxy = ((position - middle) / (half * half)).normalize_or(Vec3::Z);
+    let normal = proxy.lerp(own.normalize_or(proxy), OWN);
+    // Light from the left reaches this far: 90 degrees beyond the normal's own direction.
+    let angle = normal.x.atan2(normal.z);
+    let from = |side: f32| ((0.5 * PI + side * angle) / PI).clamp(0.0, 1.0);
+    let smooth = |from: f32, to: f32, x: f32| {
+        let t = ((x - from) / (to - from)).clamp(0.0, 1.0);
+        t * t * (3.0 - 2.0 * t)
+    };
+    let behind = smooth(1.35, 1.75, angle.abs());
+    let below = smooth(0.98, 0.75, share);
+    let uv = primitive.uvs[0].get(v).copied().unwrap_or_default();
+    Corner { uv: Vec2::from(uv), value: Vec3::new(from(-1.0), from(1.0), behind.max(below)) }
+}
+
+/// Writes a triangle, with its values between those of its corners; gives the number of texels that held quite another
+/// angle before.
+fn fill(texels: &mut [Texel], [a, b, c]: [&Corner; 3]) -> usize {
+    let [p, q, r] = [a, b, c].map(|corner| corner.uv * SIDE as f32 - 0.5);
+    let area = (q - p).perp_dot(r - p);
+    if area.abs() < 1e-9 || !area.is_finite() {
+        return 0;
+    }
+    let mut shared = 0;
+    let bound = |x: f32| x.clamp(0.0, SIDE as f32 - 1.0) as usize;
+    let (low, high) = (p.min(q).min(r).ceil(), p.max(q).max(r).floor());
+    for y in bound(low.y)..=bound(high.y) {
+        for x in bound(low.x)..=bound(high.x) {
+            let at = Vec2::new(x as f32, y as f32);
+            let (u, v, w) =
+                ((r - q).perp_dot(at - q) / area, (p - r).perp_dot(at - r) / area, (q - p).perp_dot(at - p) / area);
+            if u.min(v).min(w) >= -1e-4 {
+                let texel = &mut texels[y * SIDE + x];
+                let value = a.value * u + b.value * v + c.value * w;
+                shared += usize::from(texel.covered && (texel.value.x - value.x).abs() > 0.25 && value.z < 0.5);
+                *texel = Texel { value, covered: true };
+            }
+        }
+    }
+    shared
+}
+
+/// Covers every texel beside covered ones with their mean.
+fn grow(texels: &mut [Texel]) {
+    let before = texels.to_vec();
+    for (i, texel) in texels.iter_mut().enumerate().filter(|(_, t)| !t.covered) {
+        let (x, y) = (i % SIDE, i / SIDE);
+        let (mut sum, mut count) = (Vec3::ZERO, 0.0);
+        for y in y.saturating_sub(1)..(y + 2).min(SIDE) {
+            for near in &before[y * SIDE..][x.saturating_sub(1)..(x + 2).min(SIDE)] {
+                if near.covered {
+                    sum += near.value;
+                    count += 1.0;
+                }
+            }
+        }
+        if count > 0.0 {
+            *texel = Texel { value: sum / count, covered: true };
+        }
+    }
+}

@@ -1,0 +1,135 @@
+//! The anime look's face shadow on whole characters.
+
+use glam::{Mat4, Quat, Vec3};
+use hikage::color::LinearRgb;
+use hikage::import::{Limits, load_bytes};
+use hikage::motion::Pose;
+use hikage::scene::{Ambient, Framing, HumanBone, Image, Role, Scene};
+use hikage::{Gpu, Look, Renderer, View};
+
+#[path = "support/scene.rs"]
+mod support;
+use support::gpu;
+
+fn heroine() -> Scene {
+    let mut scene =
+        load_bytes("hikage.vrm", &hikage_character::file(), None, &Limits::default()).expect("the file is read");
+    Look::Anime { face: None }.apply(&mut scene);
+    scene
+}
+
+fn draw(gpu: &Gpu, scene: &Scene, pose: &Pose, view: &View) -> Image {
+    let mut renderer = Renderer::new(gpu).expect("a renderer");
+    let mut uploaded = renderer.upload(scene).expect("an upload");
+    uploaded.set_pose(gpu, scene, pose);
+    renderer.render(&mut uploaded, view).expect("a picture")
+}
+
+/// Light from an angle to the character's left, level.
+fn lit_from(view: &View, degrees: f32) -> View {
+    let mut view = view.clone();
+    let (s, c) = degrees.to_radians().sin_cos();
+    view.lights.directional.to_light = Vec3::new(s, 0.0, c);
+    view
+}
+
+fn portrait(scene: &Scene) -> View {
+    let mut view = View::framed(scene, Framing::Face, 0.0, [192, 192]);
+    view.lights.ambient = Ambient::uniform(LinearRgb::splat(0.1));
+    view
+}
+
+/// Pixels of the cheeks, mouth and chin, before which no hair hangs.
+fn cheeks(image: &Image) -> Vec<[u8; 4]> {
+    (135..165).flat_map(|y| (76..116).map(move |x| (x, y))).map(|(x, y)| support::pixel(image, x, y)).collect()
+}
+
+fn apart(a: &[[u8; 4]], b: &[[u8; 4]], by: u8) -> usize {
+    a.iter().zip(b).filter(|(a, b)| a.iter().zip(*b).any(|(a, b)| a.abs_diff(*b) > by)).count()
+}
+
+#[test]
+fn only_faces_get_a_map_and_a_plain_look_changes_nothing() {
+    let scene = heroine();
+    let faces: Vec<usize> =
+        scene.meshes.iter().flat_map(|m| &m.primitives).filter(|p| p.role == Role::Face).map(|p| p.material).collect();
+    for (index, material) in scene.materials.iter().enumerate() {
+        assert_eq!(material.face_shadow.is_some(), faces.contains(&index), "{}", material.name);
+    }
+    let mut plain = scene.clone();
+    Look::Plain.apply(&mut plain);
+    assert_eq!((plain.materials, plain.textures.len()), (scene.materials, scene.textures.len()));
+}
+
+/// Camera, character and light turned alike show the same picture.
+#[test]
+fn turning_everything_changes_nothing() {
+    let (gpu, scene) = (gpu(), heroine());
+    let pose = Pose::rest(&scene);
+    let view = lit_from(&portrait(&scene), 55.0);
+    let reference = draw(&gpu, &scene, &pose, &view);
+    for turn in [Quat::from_rotation_y(2.2), Quat::from_euler(glam::EulerRot::YXZ, -0.8, 0.5, 1.0)] {
+        let mut turned = view.clone();
+        turned.instances = vec![Mat4::from_quat(turn)];
+        for v in [
+            &mut turned.camera.eye,
+            &mut turned.camera.target,
+            &mut turned.camera.up,
+            &mut turned.lights.directional.to_light,
+        ] {
+            *v = turn * *v;
+        }
+        let picture = draw(&gpu, &scene, &pose, &turned);
+        // The line of the mouth may fall on other sides of sample points by the rounding of the turn.
+        let (a, b) = (cheeks(&reference), cheeks(&picture));
+        let wrong = apart(&a, &b, 2);
+        assert!(wrong * 100 < a.len(), "{turn}: {wrong} of {} pixels", a.len());
+    }
+}
+
+/// The face is lit in the frame of the head bone: light that turns with the head leaves its shadow as it is.
+#[test]
+fn the_shadow_turns_with_the_head() {
+    let (gpu, scene) = (gpu(), heroine());
+    let head = scene.bone_node(HumanBone::Head).expect("a head");
+    let face = |degrees: f32, turn: f32| {
+        let mut pose = Pose::rest(&scene);
+        pose.locals[head].rotation = Quat::from_rotation_y(turn.to_radians());
+        let mut view = lit_from(&portrait(&scene), degrees);
+        let (target, turn) = (view.camera.target, Quat::from_rotation_y(turn.to_radians()));
+        // The camera goes round the head bone with it.
+        let axis = scene.rest_world_from_nodes()[head].w_axis.truncate();
+        view.camera.eye = axis + turn * (view.camera.eye - axis);
+        view.camera.target = axis + turn * (target - axis);
+        cheeks(&draw(&gpu, &scene, &pose, &view))
+    };
+    let reference = face(70.0, 0.0);
+    let turned = face(70.0 + 30.0, 30.0);
+    let wrong = apart(&reference, &turned, 8);
+    assert!(wrong * 50 < reference.len(), "{wrong} of {} pixels", reference.len());
+    // The same light on a turned head is another picture.
+    assert!(apart(&reference, &face(70.0, 30.0), 8) * 50 > reference.len(), "the light does not matter");
+}
+
+/// Over half a turn of the light in steps of 1 degree no texel of the face lights up again, nor does one jump.
+#[test]
+fn a_sweep_of_the_light_never_goes_back() {
+    let (gpu, scene) = (gpu(), heroine());
+    let view = portrait(&scene);
+    let mut renderer = Renderer::new(&gpu).expect("a renderer");
+    let mut uploaded = renderer.upload(&scene).expect("an upload");
+    let mut last: Option<Vec<u8>> = None;
+    let (mut brightest, mut darkest) = (0u8, 255u8);
+    for degrees in 0..=180 {
+        let image = renderer.render(&mut uploaded, &lit_from(&view, degrees as f32)).expect("a picture");
+        let now: Vec<u8> = cheeks(&image).into_iter().map(|p| p[1]).collect();
+        if let Some(last) = &last {
+            let grown = last.iter().zip(&now).filter(|(a, b)| **b > **a + 1).count();
+            assert_eq!(grown, 0, "pixels light up again at {degrees} degrees");
+        }
+        brightest = brightest.max(*now.iter().max().unwrap_or(&0));
+        darkest = darkest.min(*now.iter().min().unwrap_or(&255));
+        last = Some(now);
+    }
+    assert!(brightest - darkest > 30, "nothing darkened: {darkest} to {brightest}");
+}
