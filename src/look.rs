@@ -1,7 +1,9 @@
 //! Looks: what is added to a character as its file describes it.
 
-use crate::material::{FaceShadow, TextureRef};
-use crate::scene::{Filter, Image, Sampler, Scene, Texture, Wrap};
+use std::collections::BTreeSet;
+
+use crate::material::{BangsShadow, FaceShadow, Material, Shading, TextureRef};
+use crate::scene::{Bangs, Filter, Image, Role, Sampler, Scene, Texture, Wrap};
 use crate::sdf::{ThresholdMap, face_map};
 
 /// What a character is made to look like.
@@ -10,7 +12,8 @@ pub enum Look {
     /// As the file says.
     #[default]
     Plain,
-    /// The face of a shipped anime game: its shadow is a drawn shape, not a matter of normals.
+    /// The face of a shipped anime game: its shadow is a drawn shape, not a matter of normals, and its bangs cast
+    /// theirs on it.
     Anime {
         /// Threshold map painted for light from the character's left, over the face's texture; the other side mirrors
         /// it. `None`: one is made from the mesh of each face.
@@ -23,7 +26,10 @@ impl Look {
     /// is, and so does a face whose two sides share their texture coordinates.
     pub fn apply(&self, scene: &mut Scene) {
         let Self::Anime { face } = self else { return };
-        for material in 0..scene.materials.len() {
+        scene.bangs = Some(Bangs::default());
+        for material in materials_of(scene, Role::Face) {
+            let shade = shade_factor(&scene.materials[material]);
+            scene.materials[material].bangs_shadow = Some(BangsShadow { color: shade, ..BangsShadow::default() });
             let Some(mut map) = face_map(scene, material) else { continue };
             if let Some(painted) = face {
                 map = over(&painted.mirrored_image(), &map);
@@ -32,6 +38,30 @@ impl Look {
             scene.materials[material].face_shadow =
                 Some(FaceShadow { map: TextureRef { texture, ..TextureRef::default() }, ..FaceShadow::default() });
         }
+    }
+}
+
+/// Materials that a part of this role has.
+fn materials_of(scene: &Scene, role: Role) -> BTreeSet<usize> {
+    let parts = scene.meshes.iter().flat_map(|m| &m.primitives);
+    parts.filter(|p| p.role == role).map(|p| p.material).filter(|m| *m < scene.materials.len()).collect()
+}
+
+/// What the lit colour is multiplied by in shade, where one texture serves both; else the default of the shadow.
+fn shade_factor(material: &Material) -> [f32; 3] {
+    match material.shading {
+        Shading::Toon(toon) if toon.shade_texture == material.base.texture => {
+            let [r, g, b, _] = material.base.color;
+            let share = |shade: f32, base: f32| {
+                if base > 1e-3 {
+                    (shade / base).clamp(0.0, 1.0)
+                } else {
+                    1.0
+                }
+            };
+            [share(toon.shade_color[0], r), share(toon.shade_color[1], g), share(toon.shade_color[2], b)]
+        }
+        _ => BangsShadow::default().color,
     }
 }
 

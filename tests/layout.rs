@@ -76,6 +76,9 @@ fn structs_match_their_wgsl() {
                 normal_scale,
                 face_softness,
                 face_overhead_fade,
+                bangs_color,
+                bangs_strength,
+                bangs_edges,
                 base_uv,
                 shade_uv,
                 shift_uv,
@@ -87,7 +90,20 @@ fn structs_match_their_wgsl() {
                 face_uv,
             }
         ),
-        layout!("opaque", "Character", CharacterUniform { face_left, face_up, face_forward }),
+        layout!(
+            "opaque",
+            "Character",
+            CharacterUniform {
+                face_left,
+                face_up,
+                face_forward,
+                bangs_row_u,
+                bangs_row_v,
+                bangs_row_depth,
+                bangs_hardness,
+                bangs_bias
+            }
+        ),
         layout!(
             "deform",
             "DeformGroup",

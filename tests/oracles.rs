@@ -288,6 +288,59 @@ fn region_and_strength_blend_into_normal_shading() {
 }
 
 #[test]
+fn esm_taps_and_composition_match_the_vectors() {
+    let file = vectors("esm.json");
+    for (i, case) in cases(&file, "cases").iter().enumerate() {
+        let flat = |name: &str| -> Vec<f32> {
+            case[name]
+                .as_array()
+                .expect(name)
+                .iter()
+                .flat_map(|r| r.as_array().expect(name))
+                .map(|x| x.as_f64().expect(name) as f32)
+                .collect()
+        };
+        let common = numbers(case, &["receiver", "c", "bias"]);
+        let rows: Vec<Vec<f32>> = flat("depths").into_iter().map(|d| [&[d], &common[..]].concat()).collect();
+        let taps = run(
+            &["bangs"],
+            "output[out] = esm_tap(input[base], input[base + 1u], input[base + 2u], input[base + 3u]);",
+            &rows,
+            1,
+        );
+        let lit: f32 = taps.iter().zip(flat("weights")).map(|(tap, weight)| tap[0] * weight).sum();
+        assert_close("taps", i, &[lit], &numbers(case, &["lit_tap"]), 1e-3 * (common[1] / 600.0).max(1.0));
+    }
+    let list = cases(&file, "compose");
+    let rows: Vec<Vec<f32>> =
+        list.iter().map(|c| numbers(c, &["lit", "edge0", "edge1", "strength", "shadow_color"])).collect();
+    let body = "write3(out, bangs_factor(input[base], vec2f(input[base + 1u], input[base + 2u]), input[base + 3u],
+        input3(base + 4u)));";
+    for (i, (case, found)) in list.iter().zip(run(&["bangs"], body, &rows, 3)).enumerate() {
+        assert_close("composition", i, &found, &numbers(case, &["factor"]), 1e-5);
+    }
+}
+
+/// A caster farther than ln(100)/c before the receiver lets at most 1 % through; one behind it lets all through; the
+/// weights of the box sum to 1 wherever it stands.
+#[test]
+fn esm_leaks_at_most_a_hundredth() {
+    let rows: Vec<Vec<f32>> = [200.0, 600.0, 1500.0, 5000.0].iter().map(|c: &f32| vec![*c, 100f32.ln() / c]).collect();
+    let body = "
+        let c = input[base]; let gap = input[base + 1u];
+        output[out] = esm_tap(0.5 - gap, 0.5, c, 0.0);
+        output[out + 1u] = esm_tap(0.5 - 2.0 * gap, 0.5, c, 0.0);
+        output[out + 2u] = esm_tap(0.5 + gap, 0.5, c, 0.0);
+        var sum = 0.0;
+        for (var i = 0; i < 5; i++) { sum += bangs_weight(i, fract(c * 0.0137)); }
+        output[out + 3u] = sum;";
+    for (row, found) in rows.iter().zip(run(&["bangs"], body, &rows, 4)) {
+        assert!(found[0] <= 0.010_01 && found[1] <= 0.000_11 && found[2] == 1.0, "{row:?}: {found:?}");
+        assert!((found[3] - 1.0).abs() < 1e-6, "{row:?}: weights sum to {}", found[3]);
+    }
+}
+
+#[test]
 fn octahedral_pairs_keep_unit_vectors() {
     let mut rows = Vec::new();
     for i in 0..500 {

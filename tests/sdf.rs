@@ -21,7 +21,7 @@ fn mask(rows: &Value) -> Mask {
 }
 
 fn numbers(rows: &Value) -> Vec<f64> {
-    list(rows).iter().flat_map(|r| list(r)).map(|n| n.as_f64().expect("a number")).collect()
+    list(rows).iter().flat_map(list).map(|n| n.as_f64().expect("a number")).collect()
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! What a surface looks like: plain sections with public fields. MToon 1.0 maps onto it without loss.
 
 mod alpha;
+mod bangs_shadow;
 mod base;
 mod face_shadow;
 mod matcap;
@@ -10,6 +11,7 @@ mod toon;
 mod uv_animation;
 
 pub use alpha::{Alpha, AlphaMode};
+pub use bangs_shadow::BangsShadow;
 pub use base::{Base, Emission, NormalMap, TextureRef, UvTransform};
 pub use face_shadow::FaceShadow;
 pub use matcap::Matcap;
@@ -44,6 +46,8 @@ pub struct Material {
     pub shading: Shading,
     /// Shadow of a face by a threshold map. Default: none.
     pub face_shadow: Option<FaceShadow>,
+    /// Shadow of the front hair on it. Default: none.
+    pub bangs_shadow: Option<BangsShadow>,
     /// A picture of light looked up by the view-space normal. Default: none.
     pub matcap: Option<Matcap>,
     /// Light along the contour.

@@ -17,6 +17,8 @@ pub(crate) struct Draw {
     pub surface: wgpu::RenderPipeline,
     pub outline: Option<wgpu::RenderPipeline>,
     pub prepass: wgpu::RenderPipeline,
+    /// Where it casts the shadow of the bangs.
+    pub bangs: Option<wgpu::RenderPipeline>,
 }
 
 impl GpuScene {
@@ -36,9 +38,14 @@ impl GpuScene {
 }
 
 /// What every geometry pass binds before it draws.
-pub(crate) fn bind_scene(pass: &mut wgpu::RenderPass<'_>, scene: &GpuScene, frame: &wgpu::BindGroup) {
+pub(crate) fn bind_scene(
+    pass: &mut wgpu::RenderPass<'_>,
+    scene: &GpuScene,
+    frame: &wgpu::BindGroup,
+    character: &wgpu::BindGroup,
+) {
     pass.set_bind_group(0, frame, &[]);
-    pass.set_bind_group(1, &scene.character_group, &[]);
+    pass.set_bind_group(1, character, &[]);
     pass.set_vertex_buffer(0, scene.deform.deformed.slice(..));
     pass.set_vertex_buffer(1, scene.static_vertices.slice(..));
     pass.set_vertex_buffer(2, scene.instances.slice(..));

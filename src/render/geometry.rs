@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use glam::{Mat4, Quat, Vec3};
+use glam::{Mat4, Vec3};
 
 use super::{
     pass::deform::DeformInput,
@@ -10,7 +10,7 @@ use super::{
 };
 use crate::{
     material::AlphaMode,
-    scene::{HumanBone, Influences, MorphTarget, Primitive, Scene, Skin},
+    scene::{HumanBone, Influences, MorphTarget, Primitive, Role, Scene, Skin},
 };
 
 /// What turns a [`Pose`] into matrices and weights, in the order of the GPU buffers.
@@ -19,8 +19,10 @@ pub(crate) struct Rig {
     pub palettes: Vec<Palette>,
     /// Nodes whose morph weights follow each other in the weight buffer, with their number of targets.
     pub weights: Vec<(usize, usize)>,
-    /// Node of the head bone and its rotation at rest; the face looks to +Z then.
-    pub head: Option<(usize, Quat)>,
+    /// Node of the head bone, and the inverse of its place at rest; the face looks to +Z then.
+    pub head: Option<(usize, Mat4)>,
+    /// Box round the parts of the face at rest, character space.
+    pub face: Option<(Vec3, Vec3)>,
 }
 
 #[derive(Debug)]
@@ -37,6 +39,7 @@ pub(crate) struct Part {
     pub indices: std::ops::Range<u32>,
     pub center: Vec3,
     pub has_vertex_colors: bool,
+    pub role: Role,
 }
 
 /// Vertices of all parts in one stream.
@@ -61,7 +64,7 @@ impl Geometry {
     pub fn gather(scene: &Scene) -> Self {
         let mut geometry = Self::default();
         let rest = scene.rest_world_from_nodes();
-        geometry.rig.head = scene.bone_node(HumanBone::Head).and_then(|n| Some((n, rotation(*rest.get(n)?))));
+        geometry.rig.head = scene.bone_node(HumanBone::Head).and_then(|n| Some((n, rest.get(n)?.inverse())));
         let mut skin_palettes: HashMap<usize, u32> = HashMap::new();
         let mut parts: Vec<(u32, usize, &Primitive, DeformGroup, Mat4)> = Vec::new();
         for (node_index, mesh) in scene.mesh_nodes() {
@@ -151,6 +154,10 @@ impl Geometry {
         if group.influences_per_vertex > 0 {
             pack_influences(&primitive.influences, &mut self.influences);
         }
+        if primitive.role == Role::Face && low.is_finite() {
+            let (l, h) = self.rig.face.unwrap_or((low, high));
+            self.rig.face = Some((l.min(low), h.max(high)));
+        }
         let start = self.indices.len() as u32;
         // A mirrored node turns its triangles inside out; the front faces are put back here.
         let mirrored = rest.determinant() < 0.0;
@@ -163,6 +170,7 @@ impl Geometry {
             indices: start..self.indices.len() as u32,
             center: (low + high) * 0.5,
             has_vertex_colors: !primitive.colors.is_empty(),
+            role: primitive.role,
         });
     }
 
@@ -215,11 +223,6 @@ fn pack_influences(influences: &Influences, out: &mut Vec<u32>) {
         }
         out.extend(joints.iter().zip(&codes).map(|(joint, code)| u32::from(*joint) | (*code as u32) << 16));
     }
-}
-
-/// The rotation in a matrix of rotation, translation and scale.
-pub(crate) fn rotation(matrix: Mat4) -> Quat {
-    matrix.to_scale_rotation_translation().1
 }
 
 fn skin_matrix(skin: &Skin, rest: &[Mat4], joint: usize) -> Mat4 {

@@ -19,6 +19,7 @@ pub use view::{Background, Channel, View};
 
 use crate::{Error, Gpu, Result, gpu::MAX_TEXTURE_SIDE, scene::Image};
 use pass::{
+    bangs_shadow::{BangsShadowInputs, BangsShadowPass},
     deform::{DeformInputs, DeformPass},
     opaque::{OpaqueInputs, OpaquePass},
     outline::{OutlineInputs, OutlinePass},
@@ -66,6 +67,7 @@ pub struct Renderer {
     pub(crate) output: Output,
     pub(crate) layouts: Layouts,
     pub(crate) deform: DeformPass,
+    pub(crate) bangs_shadow: BangsShadowPass,
     pub(crate) prepass: PrepassPass,
     pub(crate) opaque: OpaquePass,
     pub(crate) outline: OutlinePass,
@@ -116,6 +118,7 @@ impl Renderer {
                 output,
                 layouts,
                 deform: DeformPass::new(gpu),
+                bangs_shadow: BangsShadowPass::new(gpu),
                 prepass: PrepassPass::new(gpu),
                 opaque: OpaquePass::new(gpu, output),
                 outline: OutlinePass::new(gpu, output),
@@ -175,9 +178,11 @@ impl Renderer {
         self.begin_frame(scene, view);
         // Skinned and morphed vertices; only where the pose has changed.
         self.encode_deform(encoder, scene, None);
+        // Front hair from the light of its shadow on the face.
+        self.encode_bangs_shadow(encoder, scene);
         // One colour pass: opaque, outlines and transparent share their targets, so samples are resolved once.
         let mut pass = self.begin_color_pass(encoder, view, target, None);
-        draw_list::bind_scene(&mut pass, scene, &self.frame_group);
+        draw_list::bind_scene(&mut pass, scene, &self.frame_group, &scene.character_group);
         // Body, face, hair.
         self.opaque.encode(&mut pass, &OpaqueInputs { scene });
         // Lines around them, hidden where a surface is nearer.
@@ -202,6 +207,7 @@ impl Renderer {
             }
             self.gpu.queue.write_buffer(&scene.instances, 0, bytemuck::cast_slice(&scene.instance_rows));
         }
+        scene.light(&self.gpu, view);
         // Draws of a crowd share one order: that of its first character.
         let eye = view.instances.first().map_or(view.camera.eye, |m| m.inverse().transform_point3(view.camera.eye));
         scene.sort_transparent(eye);
@@ -218,6 +224,12 @@ impl Renderer {
     ) {
         if std::mem::take(&mut scene.deform_pending) {
             self.deform.encode(encoder, &DeformInputs { scene }, timestamps);
+        }
+    }
+
+    pub(crate) fn encode_bangs_shadow(&self, encoder: &mut wgpu::CommandEncoder, scene: &GpuScene) {
+        if let Some(map) = &scene.bangs {
+            self.bangs_shadow.encode(encoder, &BangsShadowInputs { scene, frame: &self.frame_group, map });
         }
     }
 
@@ -319,7 +331,18 @@ impl Layouts {
             .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("material"), entries: &entries });
         let character = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("character"),
-            entries: &[entry(0, wgpu::ShaderStages::VERTEX, uniform(size_of::<uniforms::CharacterUniform>() as u64))],
+            entries: &[
+                entry(0, both, uniform(size_of::<uniforms::CharacterUniform>() as u64)),
+                entry(
+                    1,
+                    wgpu::ShaderStages::FRAGMENT,
+                    wgpu::BindingType::Texture {
+                        sample_type: wgpu::TextureSampleType::Float { filterable: false },
+                        view_dimension: wgpu::TextureViewDimension::D2,
+                        multisampled: false,
+                    },
+                ),
+            ],
         });
         let surface = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("surface"),

@@ -12,7 +12,7 @@ macro_rules! entries {
     };
 }
 
-entries!(deform, floor, opaque, outline, prepass, transparent);
+entries!(bangs_shadow, deform, floor, opaque, outline, prepass, transparent);
 
 /// Shader module of an entry file.
 pub(crate) fn module(device: &wgpu::Device, name: &str) -> wgpu::ShaderModule {

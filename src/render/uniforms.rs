@@ -5,7 +5,7 @@ use glam::{Mat4, Vec3};
 
 use crate::{
     material::{Material, OutlineWidth, Shading, TextureRef, UvTransform},
-    render::View,
+    render::{View, pass::bangs_shadow::BangsMap},
     scene::MAX_PUNCTUAL_LIGHTS,
 };
 
@@ -74,6 +74,10 @@ pub struct MaterialUniform {
     pub face_softness: f32,
     pub face_overhead_fade: f32,
     pub padding: f32,
+    pub bangs_color: [f32; 3],
+    pub bangs_strength: f32,
+    pub bangs_edges: [f32; 2],
+    pub padding_edges: [f32; 2],
     pub base_uv: UvTransformUniform,
     pub shade_uv: UvTransformUniform,
     pub shift_uv: UvTransformUniform,
@@ -95,6 +99,12 @@ pub struct CharacterUniform {
     pub padding_up: f32,
     pub face_forward: [f32; 3],
     pub padding_forward: f32,
+    pub bangs_row_u: [f32; 4],
+    pub bangs_row_v: [f32; 4],
+    pub bangs_row_depth: [f32; 4],
+    pub bangs_hardness: f32,
+    pub bangs_bias: f32,
+    pub padding: [f32; 2],
 }
 
 /// `DeformVertex` of `wgsl/pass/deform.wgsl`, and the first vertex stream of every draw.
@@ -215,6 +225,7 @@ impl MaterialUniform {
         };
         let outline = material.outline.unwrap_or_default();
         let face = material.face_shadow.unwrap_or_default();
+        let bangs = material.bangs_shadow.unwrap_or_default();
         let cutoff = match material.alpha.mode {
             crate::material::AlphaMode::Mask => material.alpha.cutoff,
             _ => 0.5,
@@ -245,6 +256,10 @@ impl MaterialUniform {
             face_softness: face.softness,
             face_overhead_fade: face.overhead_fade,
             padding: 0.0,
+            bangs_color: bangs.color,
+            bangs_strength: bangs.strength,
+            bangs_edges: bangs.edges,
+            padding_edges: [0.0; 2],
             base_uv: UvTransformUniform::new(material.base.texture),
             shade_uv: UvTransformUniform::new(toon.shade_texture),
             shift_uv: UvTransformUniform::new(toon.shift_texture),
@@ -259,11 +274,12 @@ impl MaterialUniform {
 }
 
 impl CharacterUniform {
-    /// Uniform of a character whose head is turned so from its rest.
-    pub fn new(head: glam::Quat) -> Self {
+    /// Uniform of a character whose head is moved so from its rest, with the light in her space.
+    pub(crate) fn new(head: Mat4, bangs: Option<&BangsMap>, to_light: Vec3) -> Self {
+        let [row_u, row_v, row_depth] = bangs.map_or([glam::Vec4::ZERO; 3], |b| b.rows(head, to_light));
+        let [hardness, bias] = bangs.map_or([0.0; 2], BangsMap::test);
         // A bone that is scaled to nothing has no rotation.
-        let head = Some(head.normalize()).filter(|h| h.is_finite()).unwrap_or_default();
-        let axis = |axis: Vec3| (head * axis).to_array();
+        let axis = |axis: Vec3| head.transform_vector3(axis).normalize_or(axis).to_array();
         Self {
             face_left: axis(Vec3::X),
             padding_left: 0.0,
@@ -271,6 +287,12 @@ impl CharacterUniform {
             padding_up: 0.0,
             face_forward: axis(Vec3::Z),
             padding_forward: 0.0,
+            bangs_row_u: row_u.to_array(),
+            bangs_row_v: row_v.to_array(),
+            bangs_row_depth: row_depth.to_array(),
+            bangs_hardness: hardness,
+            bangs_bias: bias,
+            padding: [0.0; 2],
         }
     }
 }

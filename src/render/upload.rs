@@ -2,14 +2,18 @@
 
 use std::{borrow::Cow, collections::BTreeMap};
 
-use glam::{Mat4, Quat};
+use glam::{Mat4, Vec3};
 use wgpu::util::DeviceExt;
 
 use super::{
-    Renderer,
+    Renderer, View,
     draw_list::Draw,
-    geometry::{Geometry, Palette, Part, Rig, rotation},
-    pass::{Driven, SurfaceFlags, deform::DeformBuffers},
+    geometry::{Geometry, Palette, Part, Rig},
+    pass::{
+        Driven, SurfaceFlags,
+        bangs_shadow::{BangsMap, map_texture},
+        deform::DeformBuffers,
+    },
     textures::{Encoding, TextureSet},
     uniforms::{AffineRows, CharacterUniform, MaterialUniform},
 };
@@ -17,7 +21,7 @@ use crate::{
     Gpu, Result,
     material::{AlphaMode, Material, Shading, TextureRef},
     motion::Pose,
-    scene::{Image, Scene},
+    scene::{Image, Role, Scene},
 };
 
 /// A scene on the GPU, ready to be drawn. Made by [`Renderer::upload`].
@@ -32,6 +36,11 @@ pub struct GpuScene {
     pub(crate) instance_capacity: usize,
     pub(crate) instance_rows: Vec<AffineRows>,
     pub(crate) character_group: wgpu::BindGroup,
+    /// The same while the map of the bangs is drawn.
+    pub(crate) character_group_without_map: wgpu::BindGroup,
+    pub(crate) bangs: Option<BangsMap>,
+    /// Moves the head from its rest to the pose.
+    head: Mat4,
     character: wgpu::Buffer,
     pub(crate) materials: wgpu::Buffer,
     pub(crate) material_groups: Vec<wgpu::BindGroup>,
@@ -126,11 +135,20 @@ impl Renderer {
         let indices = buffer("indices", bytemuck::cast_slice(&geometry.indices), U::INDEX);
         let static_vertices = buffer("static vertices", bytemuck::cast_slice(&geometry.static_vertices), U::VERTEX);
         let character = buffer("character", &[0; size_of::<CharacterUniform>()], U::UNIFORM | U::COPY_DST);
-        let character_group = self.gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("character"),
-            layout: &self.layouts.character,
-            entries: &[wgpu::BindGroupEntry { binding: 0, resource: character.as_entire_binding() }],
-        });
+        let bangs = self.bangs_map(scene, &geometry);
+        let no_map = map_texture(&self.gpu, 1);
+        let character_group = |map| {
+            self.gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: Some("character"),
+                layout: &self.layouts.character,
+                entries: &[
+                    wgpu::BindGroupEntry { binding: 0, resource: character.as_entire_binding() },
+                    wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::TextureView(map) },
+                ],
+            })
+        };
+        let character_group_without_map = character_group(&no_map);
+        let character_group = character_group(bangs.as_ref().map_or(&no_map, |b| &b.view));
         let deform = self.deform.buffers(&self.gpu, &geometry.deform_input());
         let draws = self.make_draws(scene, &geometry.parts);
         let mut uploaded = GpuScene {
@@ -141,6 +159,9 @@ impl Renderer {
             instance_capacity: 1,
             instance_rows: Vec::new(),
             character_group,
+            character_group_without_map,
+            bangs,
+            head: Mat4::IDENTITY,
             character,
             materials,
             material_groups,
@@ -189,6 +210,19 @@ impl Renderer {
         })
     }
 
+    /// The map of the bangs' shadow, where the scene has bangs, hair that casts and a face that receives.
+    fn bangs_map(&self, scene: &Scene, geometry: &Geometry) -> Option<BangsMap> {
+        let bangs = scene.bangs?;
+        let (low, high) = geometry.rig.face?;
+        let casts = geometry.parts.iter().any(|p| p.role == Role::HairFront);
+        let receives = scene.materials.iter().any(|m| m.bangs_shadow.is_some());
+        // A body in one piece with the face is taller than wide: the head is its upper end.
+        let half = ((high.x - low.x).max(high.z - low.z) * 0.75).clamp(1e-3, 10.0);
+        let middle = Vec3::new((low.x + high.x) * 0.5, (low.y + high.y) * 0.5, (low.z + high.z) * 0.5);
+        let middle = middle.with_y(middle.y.max(high.y - half * 0.9));
+        (casts && receives).then(|| BangsMap::new(&self.gpu, bangs, middle, half))
+    }
+
     /// One draw for each opaque material, one for each transparent part; outlines likewise.
     fn make_draws(&mut self, scene: &Scene, parts: &[Part]) -> Vec<Draw> {
         let driven = Driven::of(scene);
@@ -201,6 +235,7 @@ impl Renderer {
                 && !blend
                 && last.material == part.material
                 && last.indices.end == part.indices.start
+                && last.bangs.is_some() == (scene.bangs.is_some() && part.role == Role::HairFront)
             {
                 last.indices.end = part.indices.end;
                 continue;
@@ -220,6 +255,8 @@ impl Renderer {
                 },
                 outline: self.outline.pipeline(&self.gpu, &self.layouts, flags, material, &driven[part.material]),
                 prepass: self.prepass.pipeline(&self.gpu, &self.layouts, flags, material),
+                bangs: (scene.bangs.is_some() && part.role == Role::HairFront && !blend)
+                    .then(|| self.bangs_shadow.pipeline(&self.gpu, &self.layouts, flags, material)),
             });
         }
         draws
@@ -247,8 +284,7 @@ impl GpuScene {
             let of_node = pose.morph_weights.get(node).map_or(&[] as &[f32], Vec::as_slice);
             weights.extend((0..targets).map(|t| of_node.get(t).copied().unwrap_or(0.0)));
         }
-        let head = self.rig.head.map_or(Quat::IDENTITY, |(node, rest)| rotation(matrix(node)) * rest.inverse());
-        gpu.queue.write_buffer(&self.character, 0, bytemuck::bytes_of(&CharacterUniform::new(head)));
+        self.head = self.rig.head.map_or(Mat4::IDENTITY, |(node, rest_inverse)| matrix(node) * rest_inverse);
         gpu.queue.write_buffer(&self.deform.joints, 0, bytemuck::cast_slice(joints));
         if !weights.is_empty() {
             gpu.queue.write_buffer(&self.deform.weights, 0, bytemuck::cast_slice(weights));
@@ -261,6 +297,14 @@ impl GpuScene {
         }
         self.posed_materials.clone_from(&pose.materials);
         self.deform_pending = true;
+    }
+
+    /// Writes what of the character depends on the light. A crowd shares the shadow of its first one's bangs.
+    pub(crate) fn light(&self, gpu: &Gpu, view: &View) {
+        let to_world = view.instances.first().copied().unwrap_or_default();
+        let to_light = to_world.inverse().transform_vector3(view.lights.directional.to_light).normalize_or(Vec3::Z);
+        let uniform = CharacterUniform::new(self.head, self.bangs.as_ref(), to_light);
+        gpu.queue.write_buffer(&self.character, 0, bytemuck::bytes_of(&uniform));
     }
 
     /// Draw calls of one frame with everything in view, outlines included.

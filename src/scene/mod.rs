@@ -3,6 +3,7 @@
 //! Conventions: right-handed, +Y up, metres, radians; a character faces +Z. Quaternions are `(x, y, z, w)`.
 
 mod animation;
+mod bangs;
 mod camera;
 mod character;
 mod light;
@@ -11,6 +12,7 @@ mod role;
 mod texture;
 
 pub use animation::{Animation, AnimationChannel, AnimationValues, Interpolation};
+pub use bangs::Bangs;
 pub use camera::{Camera, Framing};
 pub use character::*;
 pub use light::{Ambient, DirectionalLight, Lights, MAX_PUNCTUAL_LIGHTS, PunctualLight, SpotCone};
@@ -43,6 +45,8 @@ pub struct Scene {
     pub animations: Vec<Animation>,
     /// VRM data: bones, expressions, look-at, springs. `None` for a plain glTF file.
     pub character: Option<Character>,
+    /// Light of the shadow that front hair casts on the face. `None`: it casts none.
+    pub bangs: Option<Bangs>,
     /// What will look or work other than the author meant.
     pub warnings: Vec<Warning>,
 }

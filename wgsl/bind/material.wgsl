@@ -30,6 +30,9 @@ struct Material {
     // Angle over pi, and horizontal length of the direction to the light.
     face_softness: f32,
     face_overhead_fade: f32,
+    bangs_color: vec3f,
+    bangs_strength: f32,
+    bangs_edges: vec2f,
     base_uv: UvTransform,
     shade_uv: UvTransform,
     shift_uv: UvTransform,

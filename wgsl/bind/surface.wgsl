@@ -1,11 +1,13 @@
 // A toon surface: samples the material's textures and shades. Shared by the opaque, outline and transparent passes.
 // Which parts exist is fixed at pipeline creation, so that what a material does not use costs nothing.
+import package::bind::character::bangs_lit;
 import package::bind::frame::frame;
 import package::bind::material::{
     UvTransform, material, base_texture, base_sampler, shade_texture, shade_sampler, shift_texture, shift_sampler,
     normal_texture, normal_sampler, emission_texture, emission_sampler, matcap_texture, matcap_sampler,
     rim_mask_texture, rim_mask_sampler, animation_mask_texture, animation_mask_sampler, face_texture, face_sampler,
 };
+import package::lib::bangs::bangs_factor;
 import package::lib::face_shadow::{face_lit, face_shading};
 import package::lib::light::{accumulated_n_dot_l, distance_attenuation, luminance, spot_attenuation};
 import package::lib::mtoon::{
@@ -32,6 +34,7 @@ struct SurfaceOptions {
     alpha_mask: bool,
     alpha_coverage: bool,
     face_shadow: bool,
+    bangs_shadow: bool,
 }
 
 struct SurfaceInput {
@@ -42,6 +45,8 @@ struct SurfaceInput {
     color: vec4f,
     // Direction to the directional light in the frame of the face.
     face_light: vec3f,
+    // Place in the map of the bangs' shadow.
+    bangs: vec3f,
 }
 
 // UVs of one texture: animation first, then KHR_texture_transform (MToon, "Compatibility with KHR_texture_transform").
@@ -178,7 +183,17 @@ fn shade_surface(options: SurfaceOptions, in: SurfaceInput) -> vec4f {
         shading = face_shading(shading, lit, map.b, map.a * directional);
     }
     let gi = mtoon_gi(ambient(normal.y), frame.ambient_sky, frame.ambient_ground, material.gi_equalization);
-    var color = mtoon_direct(base.rgb, shade, shading, light) + gi * base.rgb + emission;
+    var direct = mtoon_direct(base.rgb, shade, shading, light);
+    if options.bangs_shadow {
+        // What is in shade already gets no darker.
+        let share = shading * directional;
+        if share > 0.0 {
+            let lit = bangs_lit(in.bangs);
+            let factor = bangs_factor(lit, material.bangs_edges, material.bangs_strength, material.bangs_color);
+            direct *= mix(vec3f(1.0), factor, share);
+        }
+    }
+    var color = direct + gi * base.rgb + emission;
 
     if options.rim || options.matcap {
         let v = normalize(frame.eye - in.world_position);

@@ -1,5 +1,5 @@
 // What goes from vertex to fragment for a surface.
-import package::bind::character::character;
+import package::bind::character::{bangs_from_character, character};
 import package::bind::frame::frame;
 import package::bind::surface::{SurfaceInput, SurfaceOptions};
 import package::bind::vertex::{VertexInput, bitangent_sign, world_direction, world_position, world_rotated};
@@ -12,6 +12,7 @@ struct Varying {
     @location(3) uv: vec4f,
     @location(4) color: vec4f,
     @location(5) @interpolate(flat) face_light: vec3f,
+    @location(6) bangs: vec3f,
 }
 
 fn surface_varying(options: SurfaceOptions, v: VertexInput) -> Varying {
@@ -28,14 +29,18 @@ fn surface_varying(options: SurfaceOptions, v: VertexInput) -> Varying {
             dot(frame.to_light, world_rotated(v, character.face_forward)),
         );
     }
+    var bangs = vec3f(0.0);
+    if options.bangs_shadow {
+        bangs = bangs_from_character(v.position);
+    }
     return Varying(
         frame.clip_from_world * vec4f(position, 1.0), position, world_direction(v, v.frame.x), tangent, v.uv, v.color,
-        face_light
+        face_light, bangs
     );
 }
 
 // A back face is seen with its normal turned (glTF doubleSided).
 fn surface_input(in: Varying, front_facing: bool) -> SurfaceInput {
     let normal = select(-in.normal, in.normal, front_facing);
-    return SurfaceInput(in.world_position, normal, in.tangent, in.uv, in.color, in.face_light);
+    return SurfaceInput(in.world_position, normal, in.tangent, in.uv, in.color, in.face_light, in.bangs);
 }

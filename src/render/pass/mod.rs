@@ -1,5 +1,6 @@
 //! Passes: one file each, with the shader of the same stem in `wgsl/pass/`; what they share stands here.
 
+pub(crate) mod bangs_shadow;
 pub(crate) mod deform;
 pub(crate) mod floor;
 pub(crate) mod opaque;
@@ -64,6 +65,7 @@ pub(crate) struct SurfaceFlags {
     pub alpha_mask: bool,
     pub alpha_coverage: bool,
     pub face_shadow: bool,
+    pub bangs_shadow: bool,
 }
 
 impl SurfaceFlags {
@@ -117,6 +119,7 @@ impl SurfaceFlags {
             alpha_mask: material.alpha.mode == AlphaMode::Mask,
             alpha_coverage: false,
             face_shadow: face_shadow.is_some(),
+            bangs_shadow: toon.is_some() && material.bangs_shadow.is_some(),
         }
     }
 
@@ -140,6 +143,7 @@ impl SurfaceFlags {
             ("ALPHA_MASK", self.alpha_mask),
             ("ALPHA_COVERAGE", self.alpha_coverage),
             ("FACE_SHADOW", self.face_shadow),
+            ("BANGS_SHADOW", self.bangs_shadow),
         ]
         .map(|(name, on)| (name, f64::from(u8::from(on))))
         .to_vec()

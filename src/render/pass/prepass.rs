@@ -96,7 +96,7 @@ impl PrepassPass {
             }),
             ..Default::default()
         });
-        draw_list::bind_scene(&mut pass, inputs.scene, inputs.frame);
+        draw_list::bind_scene(&mut pass, inputs.scene, inputs.frame, &inputs.scene.character_group);
         for draw in &inputs.scene.draws {
             draw_list::record(&mut pass, inputs.scene, draw, &draw.prepass);
         }

@@ -6,7 +6,7 @@ use glam::{Mat4, Vec3};
 use hikage::View;
 use hikage::bench::{BenchOptions, run as measure};
 
-use crate::args::{self, ViewName};
+use crate::args::{self, LookName, ViewName};
 use crate::failure::Failure;
 use crate::output::{Table, bytes, print, print_json};
 use crate::setup;
@@ -43,6 +43,9 @@ pub(crate) struct Args {
         hide_possible_values = true
     )]
     view: ViewName,
+    /// What is made of the model: plain as in the file, or an anime face.
+    #[arg(long, value_enum, value_name = "plain|anime", default_value_t = LookName::Plain, hide_possible_values = true)]
+    look: LookName,
     /// Adapter, by a part of its name (`hikage adapters`).
     #[arg(long, value_name = "NAME")]
     adapter: Option<String>,
@@ -54,7 +57,8 @@ pub(crate) struct Args {
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let spinner = Spinner::new();
     spinner.step("loading the model");
-    let scene = setup::load(args.model.as_deref())?;
+    let mut scene = setup::load(args.model.as_deref())?;
+    setup::look(args.look, args.model.as_deref())?.apply(&mut scene);
     spinner.step("opening the adapter");
     let gpu = setup::gpu(args.adapter.as_deref())?;
     spinner.step(format!("measuring {} frames", args.frames));

@@ -2,11 +2,14 @@
 
 use std::collections::BTreeMap;
 
+use glam::Vec3;
 use hikage::golden::{Goldens, Tolerance};
 use hikage::import::{Limits, load_bytes};
 use hikage::motion::{Pose, Stance};
 use hikage::scene::{Framing, Image, Role, Scene};
-use hikage::{Background, Gpu, GpuScene, Output, Renderer, View, color::Srgb};
+use hikage::sdf::{Key, Mask, bake};
+use hikage::{Background, Gpu, GpuScene, Look, Output, Renderer, View, color::Srgb};
+use hikage_character::head::sdf;
 
 /// Another driver may round edges and ramps differently, never more. Wider than for spheres: her locks have outlines of a
 /// pixel all over the picture, and drivers place those by steps of 1/16 or 1/256 of a pixel.
@@ -40,20 +43,28 @@ struct Studio {
     gpu_scene: GpuScene,
     goldens: Goldens,
     faults: Vec<String>,
+    /// Yaw and pitch of the light.
+    light_deg: [f32; 2],
 }
 
 impl Studio {
     fn open() -> Self {
+        Self::open_with(|_| ())
+    }
+
+    /// The character after a change.
+    fn open_with(change: impl FnOnce(&mut Scene)) -> Self {
         let gpu = Gpu::headless(std::env::var("HIKAGE_ADAPTER").ok().as_deref()).unwrap_or_else(|e| panic!("{e}"));
         let mut scene =
             load_bytes("hikage.vrm", &hikage_character::file(), None, &Limits::default()).expect("the file is read");
         assert!(scene.warnings.is_empty(), "{:?}", scene.warnings);
+        change(&mut scene);
         let mut renderer = Renderer::with_output(&gpu, Output::default()).expect("a renderer");
         let gpu_scene = renderer.upload_and_empty_images(&mut scene).expect("the scene is uploaded");
         let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/golden");
         let bless_command = "cargo xtask goldens --bless {name}".to_owned();
         let goldens = Goldens { bless_command, ..Goldens::new(folder) };
-        Self { gpu, renderer, scene, gpu_scene, goldens, faults: Vec::new() }
+        Self { gpu, renderer, scene, gpu_scene, goldens, faults: Vec::new(), light_deg: [-24.7, 33.4] }
     }
 
     fn check(
@@ -73,6 +84,8 @@ impl Studio {
         let size = size.map(|side| side * FINER);
         let framed = View::framed_pose(&self.scene, &pose, framing, yaw_deg.to_radians(), size);
         let mut view = View { background: Background::Color(Srgb([0xdf, 0xe7, 0xee])), ..framed };
+        let [yaw, pitch] = self.light_deg.map(f32::to_radians);
+        view.lights.directional.to_light = Vec3::new(yaw.sin() * pitch.cos(), pitch.sin(), yaw.cos() * pitch.cos());
         if framing == Framing::Face {
             // From the brows to the chin.
             view.camera.fov_y_rad *= 0.52;
@@ -84,6 +97,23 @@ impl Studio {
             self.faults.push(fault.to_string());
         }
     }
+}
+
+#[test]
+fn the_anime_look_is_as_before() {
+    let key = |angle: f32| {
+        let picture = sdf::mask(angle);
+        let lit = picture.rgba.iter().map(|p| p[0] > 127).collect();
+        Key { angle_rad: angle.to_radians(), mask: Mask { width: picture.width, height: picture.height, lit } }
+    };
+    let painted = bake(&sdf::angles().into_iter().map(key).collect::<Vec<_>>()).expect("her keys are nested");
+    let mut studio = Studio::open_with(|scene| Look::Anime { face: Some(painted) }.apply(scene));
+    for degrees in [-120, -75, -40, 0, 40, 75, 120] {
+        studio.light_deg = [degrees as f32, 25.0];
+        let name = format!("anime-light-{degrees}");
+        studio.check(&name, [192; 2], Framing::Face, 0.0, Stance::Rest, None);
+    }
+    assert!(studio.faults.is_empty(), "{}", studio.faults.join("\n"));
 }
 
 /// What each mesh is taken for. No look file says so: names, bones and morphs do.

@@ -1,0 +1,187 @@
+//! Depth of the front hair, seen from the light of the bangs' shadow.
+
+use std::collections::HashMap;
+
+use glam::{Mat4, Vec3, Vec4};
+
+use super::{SurfaceFlags, vertex_buffers};
+use crate::{
+    Gpu,
+    material::{AlphaMode, Material},
+    render::{Layouts, draw_list, shaders, targets, upload::GpuScene},
+    scene::Bangs,
+};
+
+/// Depth of the nearest hair, 0..1 over the range.
+const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R32Float;
+const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+
+/// Pipelines by what a material's cut needs.
+#[derive(Debug)]
+pub(crate) struct BangsShadowPass {
+    module: wgpu::ShaderModule,
+    pipelines: HashMap<SurfaceFlags, wgpu::RenderPipeline>,
+}
+
+/// The map of one scene and the camera that draws it.
+#[derive(Debug)]
+pub(crate) struct BangsMap {
+    pub bangs: Bangs,
+    /// Middle and half width of the camera's picture at rest, character space, metres.
+    pub middle: Vec3,
+    pub half: f32,
+    pub view: wgpu::TextureView,
+    depth: wgpu::TextureView,
+}
+
+/// What the pass reads and writes.
+pub(crate) struct BangsShadowInputs<'a> {
+    pub scene: &'a GpuScene,
+    pub frame: &'a wgpu::BindGroup,
+    pub map: &'a BangsMap,
+}
+
+impl BangsMap {
+    /// A map for a head of this place and size. A texel is a quarter of the soft edge; the shader's box is four wide.
+    pub fn new(gpu: &Gpu, bangs: Bangs, middle: Vec3, half: f32) -> Self {
+        let texel = bangs.soft_width_m.clamp(0.0005, 0.05) / 4.0;
+        let side = ((2.0 * half / texel).ceil() as u32).clamp(32, 1024);
+        Self { bangs, middle, half, view: map_texture(gpu, side), depth: depth_texture(gpu, side) }
+    }
+
+    /// Rows of the map from character space. `head` moves the head from its rest; `to_light` is in character space.
+    pub fn rows(&self, head: Mat4, to_light: Vec3) -> [Vec4; 3] {
+        let turned = |axis: Vec3| head.transform_vector3(axis).normalize_or(axis);
+        let (left, up, forward) = (turned(Vec3::X), turned(Vec3::Y), turned(Vec3::Z));
+        let [yaw, pitch] = self.bangs.direction_rad.unwrap_or_else(|| {
+            let light = to_light.normalize_or(forward);
+            let (x, y, z) = (light.dot(left), light.dot(up), light.dot(forward));
+            let held = |angle: f32, low: f32, high: f32| angle.clamp(low.to_radians(), high.to_radians());
+            [held(x.atan2(z), -45.0, 45.0), held(y.clamp(-1.0, 1.0).asin(), 10.0, 60.0)]
+        });
+        let direction = left * (yaw.sin() * pitch.cos()) + up * pitch.sin() + forward * (yaw.cos() * pitch.cos());
+        let right = up.cross(direction).normalize_or(left);
+        let top = direction.cross(right);
+        let middle = head.transform_point3(self.middle);
+        let width = 2.0 * self.half;
+        let row = |axis: Vec3, scale: f32| (axis * scale).extend(0.5 - axis.dot(middle) * scale);
+        // The camera stands one width before the middle; its range is twice its width.
+        [row(right, 1.0 / width), row(top, -1.0 / width), row(direction, -0.5 / width)]
+    }
+
+    /// Hardness and bias, per unit of depth and in units of depth.
+    pub fn test(&self) -> [f32; 2] {
+        [self.bangs.hardness, self.bangs.bias_m / (4.0 * self.half)]
+    }
+}
+
+/// A map without hair, for characters that have none; [`BangsMap`] makes those that are drawn.
+pub(crate) fn map_texture(gpu: &Gpu, side: u32) -> wgpu::TextureView {
+    texture(gpu, "bangs", side, FORMAT, wgpu::TextureUsages::TEXTURE_BINDING)
+}
+
+fn depth_texture(gpu: &Gpu, side: u32) -> wgpu::TextureView {
+    texture(gpu, "bangs depth", side, DEPTH, wgpu::TextureUsages::empty())
+}
+
+fn texture(
+    gpu: &Gpu,
+    label: &str,
+    side: u32,
+    format: wgpu::TextureFormat,
+    more: wgpu::TextureUsages,
+) -> wgpu::TextureView {
+    targets::view(&gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some(label),
+        size: wgpu::Extent3d { width: side, height: side, depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | more,
+        view_formats: &[],
+    }))
+}
+
+impl BangsShadowPass {
+    pub fn new(gpu: &Gpu) -> Self {
+        Self { module: shaders::module(&gpu.device, "bangs_shadow"), pipelines: HashMap::new() }
+    }
+
+    /// The pipeline for a material of hair, made on first use.
+    pub fn pipeline(
+        &mut self,
+        gpu: &Gpu,
+        layouts: &Layouts,
+        flags: SurfaceFlags,
+        material: &Material,
+    ) -> wgpu::RenderPipeline {
+        let alpha_test = material.alpha.mode != AlphaMode::Opaque;
+        // Without a cut-out nothing is sampled: one pipeline serves all.
+        let flags = if alpha_test { flags } else { SurfaceFlags::default() };
+        let make = || {
+            let mut constants = flags.constants();
+            constants.push(("ALPHA_TEST", f64::from(u8::from(alpha_test))));
+            let options = || wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
+            gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+                label: Some("bangs shadow"),
+                layout: Some(&layouts.surface),
+                vertex: wgpu::VertexState {
+                    module: &self.module,
+                    entry_point: Some("vs_main"),
+                    compilation_options: options(),
+                    buffers: &vertex_buffers(),
+                },
+                // Cards of hair have no back.
+                primitive: wgpu::PrimitiveState::default(),
+                depth_stencil: Some(wgpu::DepthStencilState {
+                    format: DEPTH,
+                    depth_write_enabled: Some(true),
+                    depth_compare: Some(wgpu::CompareFunction::Less),
+                    stencil: wgpu::StencilState::default(),
+                    bias: wgpu::DepthBiasState::default(),
+                }),
+                multisample: wgpu::MultisampleState::default(),
+                fragment: Some(wgpu::FragmentState {
+                    module: &self.module,
+                    entry_point: Some("fs_main"),
+                    compilation_options: options(),
+                    targets: &[Some(FORMAT.into())],
+                }),
+                multiview_mask: None,
+                cache: None,
+            })
+        };
+        self.pipelines.entry(flags).or_insert_with(make).clone()
+    }
+
+    /// Draws the front hair of one character.
+    pub fn encode(&self, encoder: &mut wgpu::CommandEncoder, inputs: &BangsShadowInputs<'_>) {
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("bangs shadow"),
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view: &inputs.map.view,
+                depth_slice: None,
+                resolve_target: None,
+                // No hair: behind everything.
+                ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::WHITE), store: wgpu::StoreOp::Store },
+            })],
+            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                view: &inputs.map.depth,
+                depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(1.0), store: wgpu::StoreOp::Discard }),
+                stencil_ops: None,
+            }),
+            ..Default::default()
+        });
+        // The map itself cannot be read while it is drawn.
+        let character = &inputs.scene.character_group_without_map;
+        draw_list::bind_scene(&mut pass, inputs.scene, inputs.frame, character);
+        for draw in &inputs.scene.draws {
+            if let Some(pipeline) = &draw.bangs {
+                pass.set_pipeline(pipeline);
+                pass.set_bind_group(2, &inputs.scene.material_groups[draw.material], &[]);
+                pass.draw_indexed(draw.indices.clone(), 0, 0..1);
+            }
+        }
+    }
+}

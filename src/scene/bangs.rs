@@ -1,0 +1,27 @@
+//! What casts the shadow of the bangs.
+
+/// The light of the bangs' shadow: front hair drawn from an orthographic camera that is fitted to the head.
+///
+/// Hair is every part of the role [`HairFront`](super::Role::HairFront); materials with a
+/// [`BangsShadow`](crate::material::BangsShadow) receive it. The texels of its map have a fixed size in metres, so that
+/// neither zoom nor field of view changes the edge.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bangs {
+    /// Where the shadow's light stands, in the frame of the head: angle to the character's left, and height over the
+    /// front, radians. `None`: where the directional light stands, held within 45 degrees to the sides and between 10
+    /// and 60 degrees of height, so that the shadow stays one of bangs. Default: `None`.
+    pub direction_rad: Option<[f32; 2]>,
+    /// Width of the soft edge, metres. Range 0.0005..0.05. Default: 0.003.
+    pub soft_width_m: f32,
+    /// Sharpness c of the exponential test, for each unit of the depth range, which is twice the width of the camera's
+    /// picture: of a caster `gap` before the receiver, `exp(-c gap)` leaks. Range 100..5000. Default: 1500.
+    pub hardness: f32,
+    /// Distance by which a caster must lie before the receiver, metres. Range 0..0.01. Default: 0.001.
+    pub bias_m: f32,
+}
+
+impl Default for Bangs {
+    fn default() -> Self {
+        Self { direction_rad: None, soft_width_m: 0.003, hardness: 1500.0, bias_m: 0.001 }
+    }
+}

@@ -1,0 +1,125 @@
+//! The shadow that front hair casts on the face, on whole characters.
+
+use glam::{Mat4, Vec3};
+use hikage::color::LinearRgb;
+use hikage::import::{Limits, load_bytes};
+use hikage::scene::{Ambient, Bangs, Framing, Image, Scene};
+use hikage::{Look, Renderer, View};
+
+#[path = "support/scene.rs"]
+mod support;
+use support::{gpu, render};
+
+fn heroine() -> Scene {
+    let mut scene =
+        load_bytes("hikage.vrm", &hikage_character::file(), None, &Limits::default()).expect("the file is read");
+    Look::Anime { face: None }.apply(&mut scene);
+    scene
+}
+
+/// Her face, lit from above and a little from the left.
+fn face(scene: &Scene, side: u32) -> View {
+    let mut view = View::framed(scene, Framing::Face, 0.0, [side, side]);
+    view.lights.ambient = Ambient::uniform(LinearRgb::BLACK);
+    view.lights.directional.to_light = Vec3::new(0.3, 0.6, 0.75).normalize();
+    view
+}
+
+/// Share of pixels that the shadow darkens.
+fn shadowed(with: &Image, without: &Image) -> f64 {
+    let darker = |(a, b): &(&[u8], &[u8])| a.iter().zip(*b).any(|(a, b)| b.saturating_sub(*a) > 6);
+    let count = with.pixels.chunks(4).zip(without.pixels.chunks(4)).filter(darker).count();
+    count as f64 / (with.pixels.len() / 4) as f64
+}
+
+fn without(scene: &Scene) -> Scene {
+    Scene {
+        bangs: None,
+        materials: scene
+            .materials
+            .iter()
+            .map(|m| hikage::material::Material { bangs_shadow: None, ..m.clone() })
+            .collect(),
+        ..scene.clone()
+    }
+}
+
+#[test]
+fn bangs_darken_the_forehead_and_nothing_gets_lighter() {
+    let (gpu, scene) = (gpu(), heroine());
+    let view = face(&scene, 256);
+    let (with, bare) = (render(&gpu, &scene, &view), render(&gpu, &without(&scene), &view));
+    let share = shadowed(&with, &bare);
+    assert!((0.005..0.2).contains(&share), "{share}");
+    assert!(with.pixels.iter().zip(&bare.pixels).all(|(a, b)| a.saturating_sub(*b) <= 1), "a shadow that lights");
+    // Light from below casts no shadow upwards: it is held over the face.
+    let mut low = view.clone();
+    low.lights.directional.to_light = Vec3::new(0.0, -0.6, 0.8).normalize();
+    assert!(shadowed(&render(&gpu, &scene, &low), &render(&gpu, &without(&scene), &low)) < share);
+}
+
+/// Moving the whole character, or coming nearer, leaves the shadow on the same places of the face.
+#[test]
+fn the_shadow_depends_on_head_and_light_alone() {
+    let (gpu, scene) = (gpu(), heroine());
+    let view = face(&scene, 256);
+    let reference = render(&gpu, &scene, &view);
+    let mut moved = view.clone();
+    let by = Vec3::new(40.0, -3.0, 17.0);
+    moved.instances = vec![Mat4::from_translation(by)];
+    moved.camera.eye += by;
+    moved.camera.target += by;
+    let picture = render(&gpu, &scene, &moved);
+    let wrong = reference
+        .pixels
+        .chunks(4)
+        .zip(picture.pixels.chunks(4))
+        .filter(|(a, b)| a.iter().zip(*b).any(|(a, b)| a.abs_diff(*b) > 12))
+        .count();
+    // Edges of hair fall on other samples by the rounding of 40 m.
+    assert!(wrong * 100 < reference.pixels.len() / 4, "{wrong} pixels");
+
+    // Twice as far with half the angle of view: the same face, but for perspective.
+    let mut far = view.clone();
+    far.camera.eye = far.camera.target + (far.camera.eye - far.camera.target) * 2.0;
+    far.camera.fov_y_rad = 2.0 * ((far.camera.fov_y_rad * 0.5).tan() * 0.5).atan();
+    let share = |view: &View| shadowed(&render(&gpu, &scene, view), &render(&gpu, &without(&scene), view));
+    let (near, far) = (share(&view), share(&far));
+    assert!((near / far - 1.0).abs() < 0.15, "{near} of the picture near, {far} far");
+}
+
+#[test]
+fn an_artists_direction_overrides_the_light_and_softness_widens_the_edge() {
+    let (gpu, mut scene) = (gpu(), heroine());
+    let view = face(&scene, 192);
+    let picture = |scene: &Scene, view: &View| {
+        let mut renderer = Renderer::new(&gpu).expect("a renderer");
+        let mut uploaded = renderer.upload(scene).expect("an upload");
+        renderer.render(&mut uploaded, view).expect("a picture")
+    };
+    scene.bangs = Some(Bangs { direction_rad: Some([0.4, 0.5]), ..Bangs::default() });
+    let mut turned = view.clone();
+    turned.lights.directional.to_light = Vec3::new(-0.25, 0.6, 0.75).normalize();
+    for material in &mut scene.materials {
+        material.face_shadow = None;
+    }
+    let bare = without(&scene);
+    // Where both lights show the same bare face, both show the same shadow on it.
+    let [(a, bare_a), (b, bare_b)] = [&view, &turned].map(|view| (picture(&scene, view), picture(&bare, view)));
+    let pixels = |image: &Image| -> Vec<[u8; 3]> { image.pixels.chunks(4).map(|p| [p[0], p[1], p[2]]).collect() };
+    let [a, bare_a, b, bare_b] = [&a, &bare_a, &b, &bare_b].map(pixels);
+    let apart = |a: &[u8; 3], b: &[u8; 3]| a.iter().zip(b).map(|(a, b)| a.abs_diff(*b)).max().unwrap_or(0);
+    let alike: Vec<usize> = (0..a.len()).filter(|i| apart(&bare_a[*i], &bare_b[*i]) <= 1).collect();
+    let dark = alike.iter().filter(|i| apart(&a[**i], &bare_a[**i]) > 20).count();
+    let differ = alike.iter().filter(|i| apart(&a[**i], &b[**i]) > 2).count();
+    assert!(dark > 100 && differ * 50 < dark, "{differ} pixels follow the light, {dark} lie in shadow");
+
+    let half_shadow = |soft_width_m: f32| {
+        let soft = Scene { bangs: Some(Bangs { soft_width_m, ..Bangs::default() }), ..scene.clone() };
+        let (with, bare) = (picture(&soft, &view), picture(&bare, &view));
+        let partly = |(a, b): &(&[u8], &[u8])| (8..30).contains(&b[1].saturating_sub(a[1]));
+        with.pixels.chunks(4).zip(bare.pixels.chunks(4)).filter(partly).count()
+    };
+    let (hard, soft) = (half_shadow(0.0015), half_shadow(0.02));
+    assert!(soft > 2 * hard, "{hard} pixels of half shadow, {soft} with a soft edge");
+}

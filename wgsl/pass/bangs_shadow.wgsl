@@ -1,0 +1,34 @@
+// Depth of the front hair from the light of the bangs' shadow.
+import package::bind::character::{bangs_from_character, character};
+import package::bind::options::surface_options;
+import package::bind::material::material;
+import package::bind::surface::{SurfaceInput, animated_uv, surface_texel};
+import package::bind::vertex::VertexInput;
+
+override ALPHA_TEST: bool = false;
+
+struct BangsVarying {
+    @builtin(position) clip_position: vec4f,
+    @location(0) depth: f32,
+    @location(1) uv: vec4f,
+    @location(2) color: vec4f,
+}
+
+@vertex
+fn vs_main(v: VertexInput) -> BangsVarying {
+    let at = bangs_from_character(v.position);
+    return BangsVarying(vec4f(at.x * 2.0 - 1.0, 1.0 - at.y * 2.0, at.z, 1.0), at.z, v.uv, v.color);
+}
+
+@fragment
+fn fs_main(in: BangsVarying) -> @location(0) vec4f {
+    if ALPHA_TEST {
+        let options = surface_options();
+        let input = SurfaceInput(vec3f(0.0), vec3f(0.0), vec4f(0.0), in.uv, in.color, vec3f(0.0), vec3f(0.0));
+        let texel = surface_texel(options, input, animated_uv(options, in.uv));
+        if material.base_color.a * texel.a < material.alpha_cutoff {
+            discard;
+        }
+    }
+    return vec4f(in.depth, 0.0, 0.0, 1.0);
+}
