@@ -12,6 +12,7 @@ use crate::{
     render::{
         color_target, draw_list,
         pass::{
+            eyes_through::EyesThroughInputs,
             floor::{FloorInputs, FloorPass},
             opaque::OpaqueInputs,
             outline::OutlineInputs,
@@ -140,6 +141,7 @@ impl<'a> Stage<'a> {
             let scene = &stage.uploaded;
             stage.renderer.opaque.encode(pass, &OpaqueInputs { scene });
             stage.renderer.outline.encode(pass, &OutlineInputs { scene });
+            stage.renderer.eyes_through.encode(pass, &EyesThroughInputs { scene });
             stage.renderer.transparent.encode(pass, &TransparentInputs { scene });
         })
     }

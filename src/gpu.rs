@@ -55,7 +55,9 @@ impl Gpu {
             return Err(no_adapter(name, &adapters));
         };
         let limits = wgpu::Limits { max_texture_dimension_2d: MAX_TEXTURE_SIDE, ..Self::required_limits(adapter) };
-        let features = adapter.features() & wgpu::Features::TIMESTAMP_QUERY;
+        // The second for eyes through hair.
+        let wanted = wgpu::Features::TIMESTAMP_QUERY | wgpu::Features::DEPTH32FLOAT_STENCIL8;
+        let features = adapter.features() & wanted;
         let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("hikage"),
             required_features: features,

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::material::{BangsShadow, FaceShadow, Material, Shading, TextureRef};
-use crate::scene::{Bangs, Filter, Image, Role, Sampler, Scene, Texture, Wrap};
+use crate::scene::{Bangs, EyesThrough, Filter, Image, Role, Sampler, Scene, Texture, Wrap};
 use crate::sdf::{ThresholdMap, face_map};
 
 /// What a character is made to look like.
@@ -12,8 +12,8 @@ pub enum Look {
     /// As the file says.
     #[default]
     Plain,
-    /// The face of a shipped anime game: its shadow is a drawn shape, not a matter of normals, and its bangs cast
-    /// theirs on it.
+    /// The face of a shipped anime game: its shadow is a drawn shape, not a matter of normals, its bangs cast theirs
+    /// on it, and eyes and brows are seen through them.
     Anime {
         /// Threshold map painted for light from the character's left, over the face's texture; the other side mirrors
         /// it. `None`: one is made from the mesh of each face.
@@ -27,6 +27,7 @@ impl Look {
     pub fn apply(&self, scene: &mut Scene) {
         let Self::Anime { face } = self else { return };
         scene.bangs = Some(Bangs::default());
+        scene.eyes_through = Some(EyesThrough::default());
         for material in materials_of(scene, Role::Face) {
             let shade = shade_factor(&scene.materials[material]);
             scene.materials[material].bangs_shadow = Some(BangsShadow { color: shade, ..BangsShadow::default() });

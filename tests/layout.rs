@@ -101,7 +101,10 @@ fn structs_match_their_wgsl() {
                 bangs_row_v,
                 bangs_row_depth,
                 bangs_hardness,
-                bangs_bias
+                bangs_bias,
+                through_opacity,
+                through_window,
+                through_fade
             }
         ),
         layout!(

@@ -340,6 +340,25 @@ fn esm_leaks_at_most_a_hundredth() {
     }
 }
 
+/// A point that is pulled nearer has the depth of one that stands there; the fade falls from 1 to 0 between its angles.
+#[test]
+fn eyes_are_pulled_by_metres_and_fade_to_the_side() {
+    let rows: Vec<Vec<f32>> =
+        [0.3, 1.0, 5.0, 20.0].iter().flat_map(|d: &f32| [0.0, 0.05, 0.2].map(|window| vec![*d, window])).collect();
+    let body = "
+        let near = 0.07; let w = input[base]; let window = input[base + 1u];
+        output[out] = pulled_depth(near, w, window) / w;
+        output[out + 1u] = near / (w - window);";
+    for (row, found) in rows.iter().zip(run(&["eyes_through"], body, &rows, 2)) {
+        assert!((found[0] / found[1] - 1.0).abs() < 1e-5, "{row:?}: {found:?}");
+    }
+    let rows: Vec<Vec<f32>> = (0..=90).map(|d| vec![(d as f32).to_radians().cos()]).collect();
+    let body = "output[out] = eyes_through_fade(input[base], vec2f(cos(radians(50.0)), cos(radians(80.0))));";
+    let found = run(&["eyes_through"], body, &rows, 1);
+    assert!(found.windows(2).all(|w| w[1][0] <= w[0][0]), "it only fades");
+    assert!(found[..50].iter().all(|f| f[0] == 1.0) && found[81..].iter().all(|f| f[0] == 0.0));
+}
+
 #[test]
 fn octahedral_pairs_keep_unit_vectors() {
     let mut rows = Vec::new();

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::upload::GpuScene;
+use super::{pass::Mark, upload::GpuScene};
 
 /// One draw: a range of indices under one material, with the pipelines that show it.
 #[derive(Debug)]
@@ -19,6 +19,9 @@ pub(crate) struct Draw {
     pub prepass: wgpu::RenderPipeline,
     /// Where it casts the shadow of the bangs.
     pub bangs: Option<wgpu::RenderPipeline>,
+    pub mark: Mark,
+    /// Draws an eye over the hair before it.
+    pub through: Option<wgpu::RenderPipeline>,
 }
 
 impl GpuScene {

@@ -21,6 +21,7 @@ use crate::{Error, Gpu, Result, gpu::MAX_TEXTURE_SIDE, scene::Image};
 use pass::{
     bangs_shadow::{BangsShadowInputs, BangsShadowPass},
     deform::{DeformInputs, DeformPass},
+    eyes_through::{EyesThroughInputs, EyesThroughPass},
     opaque::{OpaqueInputs, OpaquePass},
     outline::{OutlineInputs, OutlinePass},
     prepass::{PrepassInputs, PrepassPass},
@@ -71,6 +72,7 @@ pub struct Renderer {
     pub(crate) prepass: PrepassPass,
     pub(crate) opaque: OpaquePass,
     pub(crate) outline: OutlinePass,
+    pub(crate) eyes_through: EyesThroughPass,
     pub(crate) transparent: TransparentPass,
     frame_uniform: wgpu::Buffer,
     frame_group: wgpu::BindGroup,
@@ -122,6 +124,7 @@ impl Renderer {
                 prepass: PrepassPass::new(gpu),
                 opaque: OpaquePass::new(gpu, output),
                 outline: OutlinePass::new(gpu, output),
+                eyes_through: EyesThroughPass::new(gpu, output),
                 transparent: TransparentPass::new(gpu, output),
                 frame_uniform,
                 frame_group,
@@ -187,6 +190,8 @@ impl Renderer {
         self.opaque.encode(&mut pass, &OpaqueInputs { scene });
         // Lines around them, hidden where a surface is nearer.
         self.outline.encode(&mut pass, &OutlineInputs { scene });
+        // Eyes and brows through the bangs.
+        self.eyes_through.encode(&mut pass, &EyesThroughInputs { scene });
         // What is seen through, far before near.
         self.transparent.encode(&mut pass, &TransparentInputs { scene });
         Ok(())
@@ -259,7 +264,9 @@ impl Renderer {
             depth_stencil_attachment: targets.map(|t| wgpu::RenderPassDepthStencilAttachment {
                 view: &t.depth,
                 depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Discard }),
-                stencil_ops: None,
+                stencil_ops: pass::color_depth_format(&self.gpu)
+                    .has_stencil_aspect()
+                    .then_some(wgpu::Operations { load: wgpu::LoadOp::Clear(0), store: wgpu::StoreOp::Discard }),
             }),
             timestamp_writes: timestamps,
             ..Default::default()

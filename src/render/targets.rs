@@ -3,7 +3,7 @@
 use super::{
     Output,
     pass::{
-        DEPTH_FORMAT,
+        DEPTH_FORMAT, color_depth_format,
         prepass::{NORMAL_FORMAT, PART_FORMAT},
     },
 };
@@ -66,7 +66,7 @@ impl ColorTargets {
         Self {
             size,
             multisampled: (output.samples > 1).then(|| make("multisampled colour", output.format)),
-            depth: make("depth", DEPTH_FORMAT),
+            depth: make("depth", color_depth_format(gpu)),
         }
     }
 }

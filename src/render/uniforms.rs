@@ -6,7 +6,7 @@ use glam::{Mat4, Vec3};
 use crate::{
     material::{Material, OutlineWidth, Shading, TextureRef, UvTransform},
     render::{View, pass::bangs_shadow::BangsMap},
-    scene::MAX_PUNCTUAL_LIGHTS,
+    scene::{EyesThrough, MAX_PUNCTUAL_LIGHTS},
 };
 
 /// `PunctualLight` of `wgsl/bind/frame.wgsl`.
@@ -104,6 +104,9 @@ pub struct CharacterUniform {
     pub bangs_row_depth: [f32; 4],
     pub bangs_hardness: f32,
     pub bangs_bias: f32,
+    pub through_opacity: f32,
+    pub through_window: f32,
+    pub through_fade: [f32; 2],
     pub padding: [f32; 2],
 }
 
@@ -275,7 +278,7 @@ impl MaterialUniform {
 
 impl CharacterUniform {
     /// Uniform of a character whose head is moved so from its rest, with the light in her space.
-    pub(crate) fn new(head: Mat4, bangs: Option<&BangsMap>, to_light: Vec3) -> Self {
+    pub(crate) fn new(head: Mat4, bangs: Option<&BangsMap>, through: Option<EyesThrough>, to_light: Vec3) -> Self {
         let [row_u, row_v, row_depth] = bangs.map_or([glam::Vec4::ZERO; 3], |b| b.rows(head, to_light));
         let [hardness, bias] = bangs.map_or([0.0; 2], BangsMap::test);
         // A bone that is scaled to nothing has no rotation.
@@ -292,6 +295,9 @@ impl CharacterUniform {
             bangs_row_depth: row_depth.to_array(),
             bangs_hardness: hardness,
             bangs_bias: bias,
+            through_opacity: through.map_or(0.0, |t| t.opacity),
+            through_window: through.map_or(0.0, |t| t.window_m),
+            through_fade: through.map_or([1.0, 0.0], |t| t.fade_rad.map(f32::cos)),
             padding: [0.0; 2],
         }
     }

@@ -10,8 +10,9 @@ use super::{
     draw_list::Draw,
     geometry::{Geometry, Palette, Part, Rig},
     pass::{
-        Driven, SurfaceFlags,
+        Driven, Mark, SurfaceFlags,
         bangs_shadow::{BangsMap, map_texture},
+        color_depth_format,
         deform::DeformBuffers,
     },
     textures::{Encoding, TextureSet},
@@ -21,7 +22,7 @@ use crate::{
     Gpu, Result,
     material::{AlphaMode, Material, Shading, TextureRef},
     motion::Pose,
-    scene::{Image, Role, Scene},
+    scene::{EyesThrough, Image, Role, Scene},
 };
 
 /// A scene on the GPU, ready to be drawn. Made by [`Renderer::upload`].
@@ -46,6 +47,9 @@ pub struct GpuScene {
     pub(crate) material_groups: Vec<wgpu::BindGroup>,
     pub(crate) draws: Vec<Draw>,
     pub(crate) transparent_order: Vec<usize>,
+    /// Eyes and brows that are seen through hair, the foremost first.
+    pub(crate) through_order: Vec<usize>,
+    eyes_through: Option<EyesThrough>,
     /// Whether the deformed vertices lag behind the pose.
     pub(crate) deform_pending: bool,
     source_materials: Vec<Material>,
@@ -166,6 +170,8 @@ impl Renderer {
             materials,
             material_groups,
             transparent_order: Vec::with_capacity(draws.len()),
+            through_order: through_order(&draws),
+            eyes_through: scene.eyes_through,
             draws,
             deform_pending: true,
             source_materials: scene.materials.clone(),
@@ -226,16 +232,25 @@ impl Renderer {
     /// One draw for each opaque material, one for each transparent part; outlines likewise.
     fn make_draws(&mut self, scene: &Scene, parts: &[Part]) -> Vec<Draw> {
         let driven = Driven::of(scene);
+        let has_stencil = color_depth_format(&self.gpu).has_stencil_aspect();
+        let has_marks = scene.eyes_through.is_some() && has_stencil;
         let mut draws: Vec<Draw> = Vec::new();
         for part in parts {
             let Some(material) = scene.materials.get(part.material) else { continue };
             let blend = material.alpha.mode == AlphaMode::Blend;
+            let casts_bangs = scene.bangs.is_some() && part.role == Role::HairFront && !blend;
+            let mark = if has_marks && !blend {
+                mark(part.role)
+            } else {
+                Mark::None
+            };
             // Parts are sorted by material, so that those of one material follow each other in the index buffer.
             if let Some(last) = draws.last_mut()
                 && !blend
                 && last.material == part.material
                 && last.indices.end == part.indices.start
-                && last.bangs.is_some() == (scene.bangs.is_some() && part.role == Role::HairFront)
+                && last.bangs.is_some() == casts_bangs
+                && last.mark == mark
             {
                 last.indices.end = part.indices.end;
                 continue;
@@ -251,16 +266,36 @@ impl Renderer {
                 surface: if blend {
                     self.transparent.pipeline(&self.gpu, &self.layouts, flags, material)
                 } else {
-                    self.opaque.pipeline(&self.gpu, &self.layouts, flags, material)
+                    self.opaque.pipeline(&self.gpu, &self.layouts, flags, material, mark)
                 },
                 outline: self.outline.pipeline(&self.gpu, &self.layouts, flags, material, &driven[part.material]),
                 prepass: self.prepass.pipeline(&self.gpu, &self.layouts, flags, material),
-                bangs: (scene.bangs.is_some() && part.role == Role::HairFront && !blend)
-                    .then(|| self.bangs_shadow.pipeline(&self.gpu, &self.layouts, flags, material)),
+                mark,
+                through: (mark == Mark::Eyes)
+                    .then(|| self.eyes_through.pipeline(&self.gpu, &self.layouts, flags, material)),
+                bangs: casts_bangs.then(|| self.bangs_shadow.pipeline(&self.gpu, &self.layouts, flags, material)),
             });
         }
+        // Hair marks what it hides last. The sort is stable and leaves blended draws at the end.
+        draws.sort_by_key(|d| (d.blend, has_marks.then_some(d.mark)));
         draws
     }
+}
+
+/// What a part of this role has to do with eyes through hair.
+fn mark(role: Role) -> Mark {
+    match role {
+        Role::Eye | Role::EyeWhite | Role::Lash | Role::Brow => Mark::Eyes,
+        Role::HairFront | Role::Hair => Mark::Hair,
+        _ => Mark::None,
+    }
+}
+
+/// Eyes and brows, the foremost first: characters face +Z.
+fn through_order(draws: &[Draw]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..draws.len()).filter(|i| draws[*i].through.is_some()).collect();
+    order.sort_by(|a, b| draws[*b].center.z.total_cmp(&draws[*a].center.z));
+    order
 }
 
 impl GpuScene {
@@ -303,7 +338,7 @@ impl GpuScene {
     pub(crate) fn light(&self, gpu: &Gpu, view: &View) {
         let to_world = view.instances.first().copied().unwrap_or_default();
         let to_light = to_world.inverse().transform_vector3(view.lights.directional.to_light).normalize_or(Vec3::Z);
-        let uniform = CharacterUniform::new(self.head, self.bangs.as_ref(), to_light);
+        let uniform = CharacterUniform::new(self.head, self.bangs.as_ref(), self.eyes_through, to_light);
         gpu.queue.write_buffer(&self.character, 0, bytemuck::bytes_of(&uniform));
     }
 

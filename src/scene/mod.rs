@@ -6,6 +6,7 @@ mod animation;
 mod bangs;
 mod camera;
 mod character;
+mod eyes_through;
 mod light;
 mod mesh;
 mod role;
@@ -15,6 +16,7 @@ pub use animation::{Animation, AnimationChannel, AnimationValues, Interpolation}
 pub use bangs::Bangs;
 pub use camera::{Camera, Framing};
 pub use character::*;
+pub use eyes_through::EyesThrough;
 pub use light::{Ambient, DirectionalLight, Lights, MAX_PUNCTUAL_LIGHTS, PunctualLight, SpotCone};
 pub use mesh::{Influences, Mesh, MorphTarget, Primitive, Skin};
 pub use role::Role;
@@ -47,6 +49,8 @@ pub struct Scene {
     pub character: Option<Character>,
     /// Light of the shadow that front hair casts on the face. `None`: it casts none.
     pub bangs: Option<Bangs>,
+    /// Eyes and brows through hair. `None`: hair hides them.
+    pub eyes_through: Option<EyesThrough>,
     /// What will look or work other than the author meant.
     pub warnings: Vec<Warning>,
 }

@@ -13,6 +13,10 @@ struct Character {
     // Per unit of depth, and in units of depth.
     bangs_hardness: f32,
     bangs_bias: f32,
+    // Eyes through hair: opacity, metres, cosines between which it fades.
+    through_opacity: f32,
+    through_window: f32,
+    through_fade: vec2f,
 }
 
 @group(1) @binding(0) var<uniform> character: Character;

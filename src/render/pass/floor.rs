@@ -1,6 +1,6 @@
 //! The floor of the benches: the same triangles, unlit with one texture, in the same targets.
 
-use super::{ColorPipeline, color_pipeline};
+use super::{ColorPipeline, Mark, color_pipeline};
 use crate::{
     Gpu,
     render::{Layouts, Output, draw_list, shaders, upload::GpuScene},
@@ -32,6 +32,7 @@ impl FloorPass {
                 cull: Some(wgpu::Face::Back),
                 blend: false,
                 write_depth: true,
+                mark: Mark::None,
             },
         );
         Self { pipeline }

@@ -2,6 +2,7 @@
 
 pub(crate) mod bangs_shadow;
 pub(crate) mod deform;
+pub(crate) mod eyes_through;
 pub(crate) mod floor;
 pub(crate) mod opaque;
 pub(crate) mod outline;
@@ -42,8 +43,63 @@ impl Driven {
     }
 }
 
-/// Depth format of every target.
+/// Depth format of the prepass; of the colour pass where the device has no stencil beside 32 bits of depth.
 pub(crate) const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+
+/// Depth format of the colour pass.
+pub(crate) fn color_depth_format(gpu: &Gpu) -> wgpu::TextureFormat {
+    if gpu.device.features().contains(wgpu::Features::DEPTH32FLOAT_STENCIL8) {
+        wgpu::TextureFormat::Depth32FloatStencil8
+    } else {
+        DEPTH_FORMAT
+    }
+}
+
+/// What a draw has to do with eyes through hair.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(crate) enum Mark {
+    /// Nothing.
+    #[default]
+    None,
+    /// Is an eye or a brow: marks where it is seen.
+    Eyes,
+    /// Is hair: marks where it is seen.
+    Hair,
+    /// Draws eyes where both marks are, and takes that of hair away, so that each sample is drawn to once.
+    Through,
+}
+
+const EYES_BIT: u32 = 0x80;
+const HAIR_BIT: u32 = 0x40;
+
+impl Mark {
+    /// Reference value of the stencil.
+    pub fn reference(self) -> u32 {
+        match self {
+            Self::None => 0,
+            Self::Eyes => EYES_BIT,
+            Self::Hair => HAIR_BIT,
+            Self::Through => EYES_BIT | HAIR_BIT,
+        }
+    }
+
+    fn stencil(self) -> wgpu::StencilState {
+        let (compare, pass_op, read_mask, write_mask) = match self {
+            Self::None => return wgpu::StencilState::default(),
+            Self::Eyes | Self::Hair => {
+                (wgpu::CompareFunction::Always, wgpu::StencilOperation::Replace, 0, self.reference())
+            }
+            Self::Through => (wgpu::CompareFunction::Equal, wgpu::StencilOperation::Zero, self.reference(), HAIR_BIT),
+        };
+        let face = wgpu::StencilFaceState {
+            compare,
+            fail_op: wgpu::StencilOperation::Keep,
+            depth_fail_op: wgpu::StencilOperation::Keep,
+            pass_op,
+        };
+        wgpu::StencilState { front: face, back: face, read_mask, write_mask }
+    }
+}
 
 /// Parts of a surface that a pipeline includes: the overrides of `wgsl/bind/options.wgsl`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -174,6 +230,7 @@ pub(crate) struct ColorPipeline<'a> {
     pub cull: Option<wgpu::Face>,
     pub blend: bool,
     pub write_depth: bool,
+    pub mark: Mark,
 }
 
 /// Pipeline of a pass that draws into the colour target.
@@ -194,7 +251,11 @@ pub(crate) fn color_pipeline(
             buffers: &vertex_buffers(),
         },
         primitive: wgpu::PrimitiveState { cull_mode: desc.cull, ..Default::default() },
-        depth_stencil: Some(depth_state(desc.write_depth)),
+        depth_stencil: Some(wgpu::DepthStencilState {
+            format: color_depth_format(gpu),
+            stencil: desc.mark.stencil(),
+            ..depth_state(desc.write_depth)
+        }),
         multisample: wgpu::MultisampleState { count: output.samples, ..Default::default() },
         fragment: Some(wgpu::FragmentState {
             module: desc.module,

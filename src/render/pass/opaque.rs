@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::{ColorPipeline, SurfaceFlags, color_pipeline, encode_constant, surface_cull};
+use super::{ColorPipeline, Mark, SurfaceFlags, color_pipeline, encode_constant, surface_cull};
 use crate::{
     Gpu,
     material::Material,
@@ -14,7 +14,7 @@ use crate::{
 pub(crate) struct OpaquePass {
     output: Output,
     module: wgpu::ShaderModule,
-    pipelines: HashMap<(SurfaceFlags, bool), wgpu::RenderPipeline>,
+    pipelines: HashMap<(SurfaceFlags, bool, Mark), wgpu::RenderPipeline>,
 }
 
 /// What the pass reads.
@@ -34,6 +34,7 @@ impl OpaquePass {
         layouts: &Layouts,
         flags: SurfaceFlags,
         material: &Material,
+        mark: Mark,
     ) -> wgpu::RenderPipeline {
         // With several samples a cut can cover part of a pixel.
         let covered = flags.alpha_mask && self.output.samples == 4;
@@ -53,15 +54,22 @@ impl OpaquePass {
                     cull: surface_cull(material),
                     blend: false,
                     write_depth: true,
+                    mark,
                 },
             )
         };
-        self.pipelines.entry((flags, material.double_sided)).or_insert_with(make).clone()
+        self.pipelines.entry((flags, material.double_sided, mark)).or_insert_with(make).clone()
     }
 
-    /// Draws all opaque surfaces, then all masked ones (the order of upload).
+    /// Draws all opaque surfaces, then all masked ones (the order of upload). Where eyes are to be seen through hair, they
+    /// follow what is neither, and hair comes last.
     pub fn encode(&self, pass: &mut wgpu::RenderPass<'_>, inputs: &OpaqueInputs<'_>) {
+        let mut mark = Mark::None;
         for draw in inputs.scene.draws.iter().filter(|d| !d.blend) {
+            if draw.mark != mark {
+                mark = draw.mark;
+                pass.set_stencil_reference(mark.reference());
+            }
             draw_list::record(pass, inputs.scene, draw, &draw.surface);
         }
     }

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::{ColorPipeline, Driven, SurfaceFlags, color_pipeline, encode_constant};
+use super::{ColorPipeline, Driven, Mark, SurfaceFlags, color_pipeline, encode_constant};
 use crate::{
     Gpu,
     material::{AlphaMode, Material, OutlineWidth},
@@ -98,6 +98,7 @@ impl OutlinePass {
                     cull: Some(wgpu::Face::Front),
                     blend: key.blend,
                     write_depth: key.write_depth,
+                    mark: Mark::None,
                 },
             )
         };

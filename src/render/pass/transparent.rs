@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::{ColorPipeline, SurfaceFlags, color_pipeline, encode_constant, surface_cull};
+use super::{ColorPipeline, Mark, SurfaceFlags, color_pipeline, encode_constant, surface_cull};
 use crate::{
     Gpu,
     material::Material,
@@ -50,6 +50,7 @@ impl TransparentPass {
                     cull: surface_cull(material),
                     blend: true,
                     write_depth: material.alpha.write_depth,
+                    mark: Mark::None,
                 },
             )
         };

@@ -1,0 +1,48 @@
+// Eyes and brows over the hair that hangs before them.
+import package::bind::character::character;
+import package::bind::frame::frame;
+import package::bind::options::surface_options;
+import package::bind::surface::shade_surface;
+import package::bind::varying::{Varying, surface_varying, surface_input};
+import package::bind::vertex::{VertexInput, world_rotated};
+import package::lib::color::srgb_from_linear;
+import package::lib::eyes_through::{eyes_through_fade, pulled_depth};
+
+override ENCODE_SRGB: bool = false;
+
+// Varying, and how much is seen.
+struct ThroughVarying {
+    @builtin(position) clip_position: vec4f,
+    @location(0) world_position: vec3f,
+    @location(1) normal: vec3f,
+    @location(2) tangent: vec4f,
+    @location(3) uv: vec4f,
+    @location(4) color: vec4f,
+    @location(5) @interpolate(flat) face_light: vec3f,
+    @location(6) bangs: vec3f,
+    @location(7) @interpolate(flat) opacity: f32,
+}
+
+@vertex
+fn vs_main(v: VertexInput) -> ThroughVarying {
+    let s = surface_varying(surface_options(), v);
+    var clip = s.clip_position;
+    clip.z = pulled_depth(clip.z, clip.w, character.through_window);
+    let facing = dot(world_rotated(v, character.face_forward), normalize(frame.eye - s.world_position));
+    let opacity = character.through_opacity * eyes_through_fade(facing, character.through_fade);
+    return ThroughVarying(
+        clip, s.world_position, s.normal, s.tangent, s.uv, s.color, s.face_light, s.bangs, opacity
+    );
+}
+
+@fragment
+fn fs_main(in: ThroughVarying, @builtin(front_facing) front_facing: bool) -> @location(0) vec4f {
+    let surface = Varying(
+        in.clip_position, in.world_position, in.normal, in.tangent, in.uv, in.color, in.face_light, in.bangs
+    );
+    var color = shade_surface(surface_options(), surface_input(surface, front_facing)).rgb;
+    if ENCODE_SRGB {
+        color = srgb_from_linear(color);
+    }
+    return vec4f(color * in.opacity, in.opacity);
+}
