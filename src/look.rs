@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::material::{BangsShadow, FaceShadow, Material, Shading, TextureRef};
+use crate::material::{BangsShadow, FaceShadow, Highlight, Material, Shading, TextureRef};
 use crate::scene::{Bangs, EyesThrough, Filter, Image, Role, Sampler, Scene, Texture, Wrap};
 use crate::sdf::{ThresholdMap, face_map};
 
@@ -26,6 +26,7 @@ impl Look {
     /// is, and so does a face whose two sides share their texture coordinates.
     pub fn apply(&self, scene: &mut Scene) {
         let Self::Anime { face } = self else { return };
+        highlights(scene);
         scene.bangs = Some(Bangs::default());
         scene.eyes_through = Some(EyesThrough::default());
         for material in materials_of(scene, Role::Face) {
@@ -46,6 +47,23 @@ impl Look {
 fn materials_of(scene: &Scene, role: Role) -> BTreeSet<usize> {
     let parts = scene.meshes.iter().flat_map(|m| &m.primitives);
     parts.filter(|p| p.role == role).map(|p| p.material).filter(|m| *m < scene.materials.len()).collect()
+}
+
+/// The highlights that the file carries: a band on hair, points on nose and lips.
+fn highlights(scene: &mut Scene) {
+    for (role, highlight) in [
+        (Role::HairFront, Highlight::default()),
+        (Role::Hair, Highlight::default()),
+        (
+            Role::Face,
+            Highlight { strength: 0.9, light_v: 0.0, view_v: 0.0, turn_u: 0.012, facing: 0.35, ..Highlight::default() },
+        ),
+    ] {
+        for index in materials_of(scene, role) {
+            let material = &mut scene.materials[index];
+            material.highlight = material.authored_highlight.map(|map| Highlight { map, ..highlight });
+        }
+    }
 }
 
 /// What the lit colour is multiplied by in shade, where one texture serves both; else the default of the shadow.

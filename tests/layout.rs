@@ -79,6 +79,13 @@ fn structs_match_their_wgsl() {
                 bangs_color,
                 bangs_strength,
                 bangs_edges,
+                highlight_in_shade,
+                highlight_facing,
+                highlight_color,
+                highlight_strength,
+                highlight_turn,
+                highlight_light,
+                highlight_view,
                 base_uv,
                 shade_uv,
                 shift_uv,
@@ -88,6 +95,7 @@ fn structs_match_their_wgsl() {
                 outline_mask_uv,
                 animation_mask_uv,
                 face_uv,
+                highlight_uv,
             }
         ),
         layout!(
@@ -104,7 +112,8 @@ fn structs_match_their_wgsl() {
                 bangs_bias,
                 through_opacity,
                 through_window,
-                through_fade
+                through_fade,
+                head
             }
         ),
         layout!(

@@ -340,6 +340,41 @@ fn esm_leaks_at_most_a_hundredth() {
     }
 }
 
+#[test]
+fn highlights_move_by_view_light_and_turn() {
+    let file = vectors("stylized.json");
+    let list = cases(&file, "highlight_offsets");
+    let rows: Vec<Vec<f32>> =
+        list.iter().map(|c| numbers(c, &["V", "L", "F", "U", "k", "k_light", "k_face"])).collect();
+    let body = "
+        let moved = highlight_offset(input3(base), input3(base + 3u), input3(base + 6u), input3(base + 9u),
+            input[base + 12u], input[base + 13u], input[base + 14u]);
+        output[out] = moved.x; output[out + 1u] = moved.y;";
+    for (i, (case, found)) in list.iter().zip(run(&["highlight"], body, &rows, 2)).enumerate() {
+        assert_close("highlight", i, &found, &numbers(case, &["uv_dx", "uv_dy"]), 1e-5);
+    }
+    // A head that turns to the right of the picture moves it along +u, odd and growing up to a quarter turn.
+    let list = cases(&file, "head_turn");
+    let rows: Vec<Vec<f32>> = list.iter().map(|c| numbers(c, &["head_yaw_to_screen_right"])).collect();
+    let body = "
+        let f = vec3f(sin(input[base]), 0.0, cos(input[base]));
+        let v = vec3f(0.0, 0.0, 1.0);
+        output[out] = highlight_offset(v, v, f, vec3f(0.0, 1.0, 0.0), 1.0, 0.0, 0.0).x;";
+    for (i, (case, found)) in list.iter().zip(run(&["highlight"], body, &rows, 1)).enumerate() {
+        assert_close("turn", i, &found, &numbers(case, &["uv_dx_over_k"]), 1e-5);
+    }
+    let rows: Vec<Vec<f32>> = (-90..=90).map(|d| vec![(d as f32).to_radians()]).collect();
+    let found = run(&["highlight"], body, &rows, 1);
+    assert!(found.windows(2).all(|w| w[1][0] > w[0][0] - 1e-6), "it grows with the turn");
+    assert!((0..=90).all(|d| (found[90 + d][0] + found[90 - d][0]).abs() < 1e-6), "it is odd");
+    // It fades with light from behind and where the head turns away, and stays on hair.
+    let rows = vec![vec![1.0, 1.0, 0.35], vec![1.0, -1.0, 0.35], vec![0.3, 1.0, 0.35], vec![-1.0, 1.0, -2.0]];
+    let body = "output[out] = highlight_fade(input[base], input[base + 1u], input[base + 2u]);";
+    for (found, expected) in run(&["highlight"], body, &rows, 1).iter().zip([1.0, 0.0, 0.0, 1.0]) {
+        assert_eq!(found[0], expected);
+    }
+}
+
 /// A point that is pulled nearer has the depth of one that stands there; the fade falls from 1 to 0 between its angles.
 #[test]
 fn eyes_are_pulled_by_metres_and_fade_to_the_side() {

@@ -81,6 +81,14 @@ fn read_common(json: &Json, material: &mut Material, textures: &mut Textures, wa
     let color = color.map(|c: f32| (c * strength).clamp(0.0, 1e6));
     material.emission = Emission { color, texture: textures.info(json, "emissiveTexture", warnings)? };
 
+    // Textures for looks, which glTF and MToon have no place for.
+    if let Some(maps) = json.object("extras")?.map_or(Ok(None), |e| e.object("hikage"))? {
+        material.authored_highlight = match textures.info(&maps, "highlightBand", warnings)? {
+            None => textures.info(&maps, "noseLipHighlight", warnings)?,
+            band => band,
+        };
+    }
+
     material.double_sided = json.bool("doubleSided")?.unwrap_or(false);
     let mode = match json.str("alphaMode")?.unwrap_or("OPAQUE") {
         "OPAQUE" => AlphaMode::Opaque,
@@ -113,6 +121,7 @@ fn texture_refs(material: &mut Material) -> impl Iterator<Item = &mut TextureRef
         material.rim.mask.as_mut(),
         material.outline.as_mut().and_then(|o| o.width_mask.as_mut()),
         material.uv_animation.mask.as_mut(),
+        material.authored_highlight.as_mut(),
     ]
     .into_iter()
     .chain(toon)

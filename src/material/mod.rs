@@ -4,6 +4,7 @@ mod alpha;
 mod bangs_shadow;
 mod base;
 mod face_shadow;
+mod highlight;
 mod matcap;
 mod outline;
 mod rim;
@@ -14,6 +15,7 @@ pub use alpha::{Alpha, AlphaMode};
 pub use bangs_shadow::BangsShadow;
 pub use base::{Base, Emission, NormalMap, TextureRef, UvTransform};
 pub use face_shadow::FaceShadow;
+pub use highlight::Highlight;
 pub use matcap::Matcap;
 pub use outline::{Outline, OutlineWidth};
 pub use rim::Rim;
@@ -48,6 +50,11 @@ pub struct Material {
     pub face_shadow: Option<FaceShadow>,
     /// Shadow of the front hair on it. Default: none.
     pub bangs_shadow: Option<BangsShadow>,
+    /// Painted highlight that moves. Default: none.
+    pub highlight: Option<Highlight>,
+    /// A highlight that the file carries for looks that use one (`extras.hikage.highlightBand` or `noseLipHighlight`).
+    /// Default: none.
+    pub authored_highlight: Option<TextureRef>,
     /// A picture of light looked up by the view-space normal. Default: none.
     pub matcap: Option<Matcap>,
     /// Light along the contour.

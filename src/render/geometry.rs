@@ -33,6 +33,15 @@ pub(crate) enum Palette {
     Skin(Vec<(usize, Mat4)>),
 }
 
+impl Rig {
+    /// Middle of the head at rest: a little over the head bone, where the face has no parts of its own.
+    pub fn head_middle(&self) -> Vec3 {
+        let bone = self.head.map(|(_, rest_inverse)| rest_inverse.inverse().w_axis.truncate() + Vec3::Y * 0.1);
+        let face = self.face.map(|(low, high)| (low + high) * 0.5);
+        bone.or(face).unwrap_or_default()
+    }
+}
+
 /// A primitive under a node.
 pub(crate) struct Part {
     pub material: usize,

@@ -315,7 +315,7 @@ impl Layouts {
             entries: &[entry(0, both, uniform(size_of::<FrameUniform>() as u64))],
         });
         let mut entries = vec![entry(0, both, uniform(size_of::<uniforms::MaterialUniform>() as u64))];
-        for slot in 0..10 {
+        for slot in 0..11 {
             // The width mask of the outline and the mask of the UV animation that moves it are read by vertices.
             let stages = if matches!(slot, 7 | 8) {
                 both

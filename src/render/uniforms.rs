@@ -77,7 +77,14 @@ pub struct MaterialUniform {
     pub bangs_color: [f32; 3],
     pub bangs_strength: f32,
     pub bangs_edges: [f32; 2],
-    pub padding_edges: [f32; 2],
+    pub highlight_in_shade: f32,
+    pub highlight_facing: f32,
+    pub highlight_color: [f32; 3],
+    pub highlight_strength: f32,
+    pub highlight_turn: f32,
+    pub highlight_light: f32,
+    pub highlight_view: f32,
+    pub padding_highlight: f32,
     pub base_uv: UvTransformUniform,
     pub shade_uv: UvTransformUniform,
     pub shift_uv: UvTransformUniform,
@@ -87,6 +94,7 @@ pub struct MaterialUniform {
     pub outline_mask_uv: UvTransformUniform,
     pub animation_mask_uv: UvTransformUniform,
     pub face_uv: UvTransformUniform,
+    pub highlight_uv: UvTransformUniform,
 }
 
 /// `Character` of `wgsl/bind/character.wgsl`.
@@ -108,6 +116,8 @@ pub struct CharacterUniform {
     pub through_window: f32,
     pub through_fade: [f32; 2],
     pub padding: [f32; 2],
+    pub head: [f32; 3],
+    pub padding_head: f32,
 }
 
 /// `DeformVertex` of `wgsl/pass/deform.wgsl`, and the first vertex stream of every draw.
@@ -229,6 +239,7 @@ impl MaterialUniform {
         let outline = material.outline.unwrap_or_default();
         let face = material.face_shadow.unwrap_or_default();
         let bangs = material.bangs_shadow.unwrap_or_default();
+        let highlight = material.highlight.unwrap_or_default();
         let cutoff = match material.alpha.mode {
             crate::material::AlphaMode::Mask => material.alpha.cutoff,
             _ => 0.5,
@@ -262,7 +273,14 @@ impl MaterialUniform {
             bangs_color: bangs.color,
             bangs_strength: bangs.strength,
             bangs_edges: bangs.edges,
-            padding_edges: [0.0; 2],
+            highlight_in_shade: highlight.in_shade,
+            highlight_facing: highlight.facing,
+            highlight_color: highlight.color,
+            highlight_strength: highlight.strength,
+            highlight_turn: highlight.turn_u,
+            highlight_light: highlight.light_v,
+            highlight_view: highlight.view_v,
+            padding_highlight: 0.0,
             base_uv: UvTransformUniform::new(material.base.texture),
             shade_uv: UvTransformUniform::new(toon.shade_texture),
             shift_uv: UvTransformUniform::new(toon.shift_texture),
@@ -272,13 +290,21 @@ impl MaterialUniform {
             outline_mask_uv: UvTransformUniform::new(outline.width_mask),
             animation_mask_uv: UvTransformUniform::new(material.uv_animation.mask),
             face_uv: UvTransformUniform::new(Some(face.map)),
+            highlight_uv: UvTransformUniform::new(Some(highlight.map)),
         }
     }
 }
 
 impl CharacterUniform {
-    /// Uniform of a character whose head is moved so from its rest, with the light in her space.
-    pub(crate) fn new(head: Mat4, bangs: Option<&BangsMap>, through: Option<EyesThrough>, to_light: Vec3) -> Self {
+    /// Uniform of a character whose head is moved so from its rest, with the head's middle at rest and the light in her
+    /// space.
+    pub(crate) fn new(
+        head: Mat4,
+        middle: Vec3,
+        bangs: Option<&BangsMap>,
+        through: Option<EyesThrough>,
+        to_light: Vec3,
+    ) -> Self {
         let [row_u, row_v, row_depth] = bangs.map_or([glam::Vec4::ZERO; 3], |b| b.rows(head, to_light));
         let [hardness, bias] = bangs.map_or([0.0; 2], BangsMap::test);
         // A bone that is scaled to nothing has no rotation.
@@ -299,6 +325,8 @@ impl CharacterUniform {
             through_window: through.map_or(0.0, |t| t.window_m),
             through_fade: through.map_or([1.0, 0.0], |t| t.fade_rad.map(f32::cos)),
             padding: [0.0; 2],
+            head: head.transform_point3(middle).to_array(),
+            padding_head: 0.0,
         }
     }
 }

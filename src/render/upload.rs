@@ -338,7 +338,8 @@ impl GpuScene {
     pub(crate) fn light(&self, gpu: &Gpu, view: &View) {
         let to_world = view.instances.first().copied().unwrap_or_default();
         let to_light = to_world.inverse().transform_vector3(view.lights.directional.to_light).normalize_or(Vec3::Z);
-        let uniform = CharacterUniform::new(self.head, self.bangs.as_ref(), self.eyes_through, to_light);
+        let uniform =
+            CharacterUniform::new(self.head, self.rig.head_middle(), self.bangs.as_ref(), self.eyes_through, to_light);
         gpu.queue.write_buffer(&self.character, 0, bytemuck::bytes_of(&uniform));
     }
 
@@ -385,7 +386,7 @@ pub(crate) fn instance_buffer(gpu: &Gpu, count: usize) -> wgpu::Buffer {
 }
 
 /// Textures of a material in the order of `wgsl/bind/material.wgsl`.
-fn texture_slots(material: &Material) -> [(Option<usize>, Encoding); 10] {
+fn texture_slots(material: &Material) -> [(Option<usize>, Encoding); 11] {
     let of = |r: Option<TextureRef>| r.map(|r| r.texture);
     let (shade, shift) = match &material.shading {
         Shading::Toon(toon) => (of(toon.shade_texture), of(toon.shift_texture)),
@@ -402,6 +403,7 @@ fn texture_slots(material: &Material) -> [(Option<usize>, Encoding); 10] {
         (material.outline.and_then(|o| of(o.width_mask)), Encoding::Linear),
         (of(material.uv_animation.mask), Encoding::Linear),
         (material.face_shadow.map(|f| f.map.texture), Encoding::Linear),
+        (material.highlight.map(|h| h.map.texture), Encoding::Linear),
     ]
 }
 

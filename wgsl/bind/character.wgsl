@@ -17,6 +17,8 @@ struct Character {
     through_opacity: f32,
     through_window: f32,
     through_fade: vec2f,
+    // Middle of the head, character space.
+    head: vec3f,
 }
 
 @group(1) @binding(0) var<uniform> character: Character;

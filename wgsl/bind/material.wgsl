@@ -33,6 +33,14 @@ struct Material {
     bangs_color: vec3f,
     bangs_strength: f32,
     bangs_edges: vec2f,
+    highlight_in_shade: f32,
+    highlight_facing: f32,
+    highlight_color: vec3f,
+    highlight_strength: f32,
+    // Movement along u, and along v by light and by view.
+    highlight_turn: f32,
+    highlight_light: f32,
+    highlight_view: f32,
     base_uv: UvTransform,
     shade_uv: UvTransform,
     shift_uv: UvTransform,
@@ -42,6 +50,7 @@ struct Material {
     outline_mask_uv: UvTransform,
     animation_mask_uv: UvTransform,
     face_uv: UvTransform,
+    highlight_uv: UvTransform,
 }
 
 @group(2) @binding(0) var<uniform> material: Material;
@@ -65,3 +74,5 @@ struct Material {
 @group(2) @binding(18) var animation_mask_sampler: sampler;
 @group(2) @binding(19) var face_texture: texture_2d<f32>;
 @group(2) @binding(20) var face_sampler: sampler;
+@group(2) @binding(21) var highlight_texture: texture_2d<f32>;
+@group(2) @binding(22) var highlight_sampler: sampler;

@@ -23,11 +23,13 @@ override ALPHA_COVERAGE: bool = false;
 override FACE_SHADOW: bool = false;
 // Front hair casts its shadow on it.
 override BANGS_SHADOW: bool = false;
+// A painted highlight that moves.
+override HIGHLIGHT: bool = false;
 
 fn surface_options() -> SurfaceOptions {
     return SurfaceOptions(
         UNLIT, BASE_TEXTURE, SHADE_TEXTURE, SHADE_IS_BASE, SHIFT_TEXTURE, NORMAL_MAP, EMISSION_TEXTURE, MATCAP, RIM,
         RIM_MASK, UV_TRANSFORMS, UV_ANIMATION, UV_ANIMATION_MASK, VERTEX_COLOR, ALPHA_MASK, ALPHA_COVERAGE,
-        FACE_SHADOW, BANGS_SHADOW
+        FACE_SHADOW, BANGS_SHADOW, HIGHLIGHT
     );
 }

@@ -6,6 +6,7 @@ import package::bind::material::{
     UvTransform, material, base_texture, base_sampler, shade_texture, shade_sampler, shift_texture, shift_sampler,
     normal_texture, normal_sampler, emission_texture, emission_sampler, matcap_texture, matcap_sampler,
     rim_mask_texture, rim_mask_sampler, animation_mask_texture, animation_mask_sampler, face_texture, face_sampler,
+    highlight_texture, highlight_sampler,
 };
 import package::lib::bangs::bangs_factor;
 import package::lib::face_shadow::{face_lit, face_shading};
@@ -35,6 +36,7 @@ struct SurfaceOptions {
     alpha_coverage: bool,
     face_shadow: bool,
     bangs_shadow: bool,
+    highlight: bool,
 }
 
 struct SurfaceInput {
@@ -47,6 +49,8 @@ struct SurfaceInput {
     face_light: vec3f,
     // Place in the map of the bangs' shadow.
     bangs: vec3f,
+    // Movement of the highlight, and what is left of it.
+    highlight: vec3f,
 }
 
 // UVs of one texture: animation first, then KHR_texture_transform (MToon, "Compatibility with KHR_texture_transform").
@@ -192,6 +196,13 @@ fn shade_surface(options: SurfaceOptions, in: SurfaceInput) -> vec4f {
             let factor = bangs_factor(lit, material.bangs_edges, material.bangs_strength, material.bangs_color);
             direct *= mix(vec3f(1.0), factor, share);
         }
+    }
+    if options.highlight {
+        // The map is clamped at its border by its sampler.
+        let at = texture_uv(options, uv, material.highlight_uv) + in.highlight.xy;
+        let mask = textureSample(highlight_texture, highlight_sampler, at).r;
+        let share = mask * material.highlight_strength * in.highlight.z * mix(material.highlight_in_shade, 1.0, shading);
+        direct = mix(direct, material.highlight_color * light, share);
     }
     var color = direct + gi * base.rgb + emission;
 

@@ -24,7 +24,7 @@ fn vs_main(v: VertexInput) -> BangsVarying {
 fn fs_main(in: BangsVarying) -> @location(0) vec4f {
     if ALPHA_TEST {
         let options = surface_options();
-        let input = SurfaceInput(vec3f(0.0), vec3f(0.0), vec4f(0.0), in.uv, in.color, vec3f(0.0), vec3f(0.0));
+        let input = SurfaceInput(vec3f(0.0), vec3f(0.0), vec4f(0.0), in.uv, in.color, vec3f(0.0), vec3f(0.0), vec3f(0.0));
         let texel = surface_texel(options, input, animated_uv(options, in.uv));
         if material.base_color.a * texel.a < material.alpha_cutoff {
             discard;

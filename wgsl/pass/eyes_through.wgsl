@@ -20,7 +20,8 @@ struct ThroughVarying {
     @location(4) color: vec4f,
     @location(5) @interpolate(flat) face_light: vec3f,
     @location(6) bangs: vec3f,
-    @location(7) @interpolate(flat) opacity: f32,
+    @location(7) @interpolate(flat) highlight: vec3f,
+    @location(8) @interpolate(flat) opacity: f32,
 }
 
 @vertex
@@ -31,14 +32,16 @@ fn vs_main(v: VertexInput) -> ThroughVarying {
     let facing = dot(world_rotated(v, character.face_forward), normalize(frame.eye - s.world_position));
     let opacity = character.through_opacity * eyes_through_fade(facing, character.through_fade);
     return ThroughVarying(
-        clip, s.world_position, s.normal, s.tangent, s.uv, s.color, s.face_light, s.bangs, opacity
+        clip, s.world_position, s.normal, s.tangent, s.uv, s.color, s.face_light, s.bangs, s.highlight,
+        opacity
     );
 }
 
 @fragment
 fn fs_main(in: ThroughVarying, @builtin(front_facing) front_facing: bool) -> @location(0) vec4f {
     let surface = Varying(
-        in.clip_position, in.world_position, in.normal, in.tangent, in.uv, in.color, in.face_light, in.bangs
+        in.clip_position, in.world_position, in.normal, in.tangent, in.uv, in.color, in.face_light, in.bangs,
+        in.highlight
     );
     var color = shade_surface(surface_options(), surface_input(surface, front_facing)).rgb;
     if ENCODE_SRGB {

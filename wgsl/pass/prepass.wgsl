@@ -34,7 +34,7 @@ fn vs_main(v: VertexInput) -> PrepassVarying {
 fn fs_main(in: PrepassVarying, @builtin(front_facing) front_facing: bool) -> PrepassOutput {
     if ALPHA_TEST {
         let options = surface_options();
-        let input = SurfaceInput(vec3f(0.0), in.normal, vec4f(0.0), in.uv, in.color, vec3f(0.0), vec3f(0.0));
+        let input = SurfaceInput(vec3f(0.0), in.normal, vec4f(0.0), in.uv, in.color, vec3f(0.0), vec3f(0.0), vec3f(0.0));
         let texel = surface_texel(options, input, animated_uv(options, in.uv));
         if material.base_color.a * texel.a < material.alpha_cutoff {
             discard;

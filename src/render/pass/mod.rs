@@ -122,6 +122,7 @@ pub(crate) struct SurfaceFlags {
     pub alpha_coverage: bool,
     pub face_shadow: bool,
     pub bangs_shadow: bool,
+    pub highlight: bool,
 }
 
 impl SurfaceFlags {
@@ -145,6 +146,7 @@ impl SurfaceFlags {
         let uv_animation = material.uv_animation.is_active();
         let animation_mask = material.uv_animation.mask.filter(|_| uv_animation);
         let face_shadow = material.face_shadow.filter(|_| toon.is_some());
+        let highlight = material.highlight.filter(|_| toon.is_some());
         let used = [
             material.base.texture,
             shade_texture,
@@ -155,6 +157,7 @@ impl SurfaceFlags {
             outline_mask,
             animation_mask,
             face_shadow.map(|f| f.map),
+            highlight.map(|h| h.map),
         ];
         let moved = |t: &TextureRef| t.uv_set != 0 || t.transform != UvTransform::default();
         Self {
@@ -175,6 +178,7 @@ impl SurfaceFlags {
             alpha_mask: material.alpha.mode == AlphaMode::Mask,
             alpha_coverage: false,
             face_shadow: face_shadow.is_some(),
+            highlight: highlight.is_some(),
             bangs_shadow: toon.is_some() && material.bangs_shadow.is_some(),
         }
     }
@@ -200,6 +204,7 @@ impl SurfaceFlags {
             ("ALPHA_COVERAGE", self.alpha_coverage),
             ("FACE_SHADOW", self.face_shadow),
             ("BANGS_SHADOW", self.bangs_shadow),
+            ("HIGHLIGHT", self.highlight),
         ]
         .map(|(name, on)| (name, f64::from(u8::from(on))))
         .to_vec()

@@ -113,6 +113,11 @@ fn the_anime_look_is_as_before() {
         let name = format!("anime-light-{degrees}");
         studio.check(&name, [192; 2], Framing::Face, 0.0, Stance::Rest, None);
     }
+    // The band on the hair, from where it is seen.
+    for (name, yaw, light) in [("front", 0.0, -30.0), ("left", 50.0, 20.0), ("back", 180.0, 160.0)] {
+        studio.light_deg = [light, 35.0];
+        studio.check(&format!("anime-portrait-{name}"), [256; 2], Framing::Portrait, yaw, Stance::Relaxed, None);
+    }
     assert!(studio.faults.is_empty(), "{}", studio.faults.join("\n"));
 }
 

@@ -25,7 +25,8 @@ pub(crate) fn run(args: &[String]) -> Outcome {
     let (command, ending, options, shows): (_, _, &[&str], _) = if sheet {
         ("sheet", "-sheet", &[], "from all sides and with every expression")
     } else {
-        let options = &["--size", "1024x1024", "--view", "portrait", "--yaw", "20", "--light", "-30,35"];
+        let options =
+            &["--look", "anime", "--size", "1024x1024", "--view", "portrait", "--yaw", "20", "--light", "-30,35"];
         ("render", "", options, "in portrait, 1024 x 1024, lit from the upper left")
     };
     let picture = folder.join(format!("{stem}{ending}.png"));

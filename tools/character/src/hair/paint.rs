@@ -60,15 +60,21 @@ pub(super) fn shade() -> Picture {
     paint([0xaea6d4, 0xc9c2e4, 0xb6b0de, 0x8b8ecf], 0x7f75b2, 0.3)
 }
 
-/// The band of light round the head, white on black: jagged below, as brushes leave it. It lies where v is 0.3, which
-/// every lock crosses at the same height of the head.
+/// The band of light round the head, white on black: a drawn band, jagged below as brushes leave it, and a thin broken line
+/// under it. Every lock crosses the same height of the head where v is 0.3; the band stands a little lower, because view
+/// and light from the front move it up.
 pub(super) fn highlight() -> Picture {
-    Picture::from_fn(1024, 512, |uv| {
-        let jag = 0.032 * strands(Vec2::new(uv.x, 0.2), 72.0, 5) + 0.02 * strands(Vec2::new(uv.x, 0.6), 150.0, 6);
-        let top = smoothstep(BAND_V - 0.062 + jag * 0.5, BAND_V - 0.05 + jag * 0.5, uv.y);
-        let bottom = smoothstep(BAND_V + 0.052 + jag, BAND_V + 0.03 + jag, uv.y);
-        let broken = smoothstep(-0.75, -0.35, strands(uv, 96.0, 7));
-        let value = top * bottom * broken;
+    const MIDDLE: f32 = BAND_V + 0.07;
+    Picture::from_fn(2048, 1024, |uv| {
+        let jag = 0.022 * strands(Vec2::new(uv.x, 0.2), 72.0, 5) + 0.014 * strands(Vec2::new(uv.x, 0.6), 170.0, 6);
+        // Runs up where a lock turns away, so that each has an arc of its own.
+        let across = ((uv.x * 4.0).fract() - 0.5) * 2.0;
+        let v = uv.y + 0.016 * across * across;
+        let top = smoothstep(MIDDLE - 0.024 + jag * 0.4, MIDDLE - 0.02 + jag * 0.4, v);
+        let bottom = smoothstep(MIDDLE + 0.014 + jag, MIDDLE + 0.008 + jag, v);
+        let line = smoothstep(0.005, 0.003, (v - MIDDLE - 0.034 - jag * 0.7).abs());
+        let broken = smoothstep(-0.55, -0.25, strands(uv, 96.0, 7));
+        let value = (top * bottom).max(line * smoothstep(-0.1, 0.2, strands(uv, 60.0, 9))) * broken;
         [value, value, value, 1.0]
     })
 }

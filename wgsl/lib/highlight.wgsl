@@ -1,0 +1,14 @@
+// Painted highlights that move as a whole. Unit vectors in one common space: v to the viewer, l to the light, f the front
+// of the face, u its up axis; v and l from the head, so that a highlight keeps its shape.
+
+// Movement of the texture coordinates: along u by k_turn V.A with A = -(U x F), which grows as the head turns to the right
+// of the picture; along v by k_light V.L + k_view V.F.
+fn highlight_offset(v: vec3f, l: vec3f, f: vec3f, u: vec3f, k_turn: f32, k_light: f32, k_view: f32) -> vec2f {
+    return vec2f(-k_turn * dot(v, cross(u, f)), k_light * dot(v, l) + k_view * dot(v, f));
+}
+
+// What is left of it: it fades where the light stands behind the head as it is seen, and where the head turns away below
+// the cosine `facing`.
+fn highlight_fade(v_dot_f: f32, v_dot_l: f32, facing: f32) -> f32 {
+    return smoothstep(-0.6, 0.3, v_dot_l) * smoothstep(facing, facing + 0.35, v_dot_f);
+}
