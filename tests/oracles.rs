@@ -355,15 +355,17 @@ fn highlights_move_by_view_light_and_turn() {
     }
     // A head that turns to the right of the picture moves it along +u, odd and growing up to a quarter turn.
     let list = cases(&file, "head_turn");
-    let rows: Vec<Vec<f32>> = list.iter().map(|c| numbers(c, &["head_yaw_to_screen_right"])).collect();
+    // Drivers approximate sines; those of the head's turn are not what is tested.
+    let forward = |yaw: f32| vec![yaw.sin(), yaw.cos()];
+    let rows: Vec<Vec<f32>> = list.iter().map(|c| forward(numbers(c, &["head_yaw_to_screen_right"])[0])).collect();
     let body = "
-        let f = vec3f(sin(input[base]), 0.0, cos(input[base]));
+        let f = vec3f(input[base], 0.0, input[base + 1u]);
         let v = vec3f(0.0, 0.0, 1.0);
         output[out] = highlight_offset(v, v, f, vec3f(0.0, 1.0, 0.0), 1.0, 0.0, 0.0).x;";
     for (i, (case, found)) in list.iter().zip(run(&["highlight"], body, &rows, 1)).enumerate() {
         assert_close("turn", i, &found, &numbers(case, &["uv_dx_over_k"]), 1e-5);
     }
-    let rows: Vec<Vec<f32>> = (-90..=90).map(|d| vec![(d as f32).to_radians()]).collect();
+    let rows: Vec<Vec<f32>> = (-90..=90).map(|d| forward((d as f32).to_radians())).collect();
     let found = run(&["highlight"], body, &rows, 1);
     assert!(found.windows(2).all(|w| w[1][0] > w[0][0] - 1e-6), "it grows with the turn");
     assert!((0..=90).all(|d| (found[90 + d][0] + found[90 - d][0]).abs() < 1e-6), "it is odd");
