@@ -52,6 +52,26 @@ fn only_used_vertices_are_kept() {
 }
 
 #[test]
+fn extras_may_hold_anything_and_name_highlights() {
+    let mut glb = Glb::triangle();
+    let texture = glb.texture(&picture(image::ImageFormat::Png), "image/png");
+    glb.push("materials", json!({"name": "skin"}));
+    glb.primitive()["material"] = json!(0);
+    let load = |glb: &Glb| glb.load().map(|scene| scene.materials[0].authored_highlight.map(|t| t.texture));
+    for extras in [json!(5), json!("hikage"), json!([1]), json!({"hikage": 7}), json!({"hikage": {"rampRow": 3}})] {
+        glb.json["materials"][0]["extras"] = extras.clone();
+        assert_eq!(load(&glb).expect("extras are free"), None, "{extras}");
+    }
+    for key in ["highlightBand", "noseLipHighlight"] {
+        glb.json["materials"][0]["extras"] = json!({"hikage": {key: {"index": texture}}});
+        assert_eq!(load(&glb).expect("loads"), Some(texture), "{key}");
+        glb.json["materials"][0]["extras"] = json!({"hikage": {key: {"index": 9}}});
+        let error = load(&glb).expect_err("no such texture").to_string();
+        assert!(error.contains(&format!("/materials/0/extras/hikage/{key}/index")), "{error}");
+    }
+}
+
+#[test]
 fn webp_loads_declared_and_undeclared() {
     for declared in [true, false] {
         let mut glb = Glb::triangle();

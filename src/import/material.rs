@@ -82,7 +82,8 @@ fn read_common(json: &Json, material: &mut Material, textures: &mut Textures, wa
     material.emission = Emission { color, texture: textures.info(json, "emissiveTexture", warnings)? };
 
     // Textures for looks, which glTF and MToon have no place for.
-    if let Some(maps) = json.object("extras")?.map_or(Ok(None), |e| e.object("hikage"))? {
+    // Extras may hold anything.
+    if let Some(maps) = json.get("extras").and_then(|e| e.get("hikage")).filter(Json::is_object) {
         material.authored_highlight = match textures.info(&maps, "highlightBand", warnings)? {
             None => textures.info(&maps, "noseLipHighlight", warnings)?,
             band => band,

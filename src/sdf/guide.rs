@@ -14,6 +14,9 @@ const SIDE: usize = 512;
 const OWN: f32 = 0.25;
 /// Texels that the map is grown beyond the triangles, so that filtering meets no hole.
 const GROWN: usize = 6;
+/// Texels that the triangles' boxes may cover in all, in maps: those of an unwrapped face cover it about twice, and a
+/// hostile file must not keep us busy.
+const MOST: usize = 64;
 
 /// One texel: threshold for light from the right and from the left, share of normal shading, and whether it is covered.
 #[derive(Clone, Copy)]
@@ -59,7 +62,7 @@ pub fn face_map(scene: &Scene, material: usize) -> Option<Image> {
     if !(half.is_finite() && half.min_element() > 1e-4) {
         return None;
     }
-    let mut shared = 0usize;
+    let (mut shared, mut covered) = (0usize, 0usize);
     let mut texels = vec![Texel { value: Vec3::Z, covered: false }; SIDE * SIDE];
     for ((_, primitive), (matrix, shares)) in faces.iter().zip(&placed) {
         let corners: Vec<Corner> =
@@ -67,6 +70,10 @@ pub fn face_map(scene: &Scene, material: usize) -> Option<Image> {
         for t in primitive.indices.chunks_exact(3) {
             let corner = |i: usize| corners.get(t[i] as usize);
             if let (Some(a), Some(b), Some(c)) = (corner(0), corner(1), corner(2)) {
+                covered += boxed(&[a, b, c]);
+                if covered > MOST * SIDE * SIDE {
+                    return None;
+                }
                 shared += fill(&mut texels, [a, b, c]);
             }
         }
@@ -137,6 +144,20 @@ fn corner(primitive: &Primitive, v: usize, matrix: &Mat4, share: f32, middle: Ve
     Corner { uv: Vec2::from(uv), value: Vec3::new(from(-1.0), from(1.0), behind.max(below)) }
 }
 
+/// First and last column and row of a triangle's box.
+fn bounds(corners: &[&Corner; 3]) -> [usize; 4] {
+    let [p, q, r] = corners.map(|corner| corner.uv * SIDE as f32 - 0.5);
+    let bound = |x: f32| x.clamp(0.0, SIDE as f32 - 1.0) as usize;
+    let (low, high) = (p.min(q).min(r).ceil(), p.max(q).max(r).floor());
+    [bound(low.x), bound(high.x), bound(low.y), bound(high.y)]
+}
+
+/// Texels in that box.
+fn boxed(corners: &[&Corner; 3]) -> usize {
+    let [left, right, top, bottom] = bounds(corners);
+    (right + 1).saturating_sub(left) * (bottom + 1).saturating_sub(top)
+}
+
 /// Writes a triangle, with its values between those of its corners; gives the number of texels that held quite another
 /// angle before.
 fn fill(texels: &mut [Texel], [a, b, c]: [&Corner; 3]) -> usize {
@@ -146,10 +167,9 @@ fn fill(texels: &mut [Texel], [a, b, c]: [&Corner; 3]) -> usize {
         return 0;
     }
     let mut shared = 0;
-    let bound = |x: f32| x.clamp(0.0, SIDE as f32 - 1.0) as usize;
-    let (low, high) = (p.min(q).min(r).ceil(), p.max(q).max(r).floor());
-    for y in bound(low.y)..=bound(high.y) {
-        for x in bound(low.x)..=bound(high.x) {
+    let [left, right, top, bottom] = bounds(&[a, b, c]);
+    for y in top..=bottom {
+        for x in left..=right {
             let at = Vec2::new(x as f32, y as f32);
             let (u, v, w) =
                 ((r - q).perp_dot(at - q) / area, (p - r).perp_dot(at - r) / area, (q - p).perp_dot(at - p) / area);
