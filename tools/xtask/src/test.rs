@@ -17,11 +17,17 @@ const SWIFTSHADER: [&str; 3] = [
 ];
 
 /// Tests that say something about a driver; of the whole workspace, so that nothing is built anew.
-const ON_SECOND_DRIVER: [&str; 12] = [
+const ON_SECOND_DRIVER: [&str; 18] = [
     "test",
     "--workspace",
     "--test",
     "adapters",
+    "--test",
+    "bangs_shadow",
+    "--test",
+    "eyes_through",
+    "--test",
+    "face_shadow",
     "--test",
     "golden",
     "--test",
