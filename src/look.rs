@@ -6,6 +6,9 @@ use crate::material::{BangsShadow, FaceShadow, Highlight, Material, Shading, Tex
 use crate::scene::{Bangs, EyesThrough, Filter, Image, Role, Sampler, Scene, Texture, Wrap};
 use crate::sdf::{ThresholdMap, face_map};
 
+/// Materials that get a face's shadow: characters have one to three, and a file of thousands must not fill the memory.
+const MOST_FACES: usize = 16;
+
 /// What a character is made to look like.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum Look {
@@ -29,7 +32,7 @@ impl Look {
         highlights(scene);
         scene.bangs = Some(Bangs::default());
         scene.eyes_through = Some(EyesThrough::default());
-        for material in materials_of(scene, Role::Face) {
+        for material in materials_of(scene, Role::Face).into_iter().take(MOST_FACES) {
             let shade = shade_factor(&scene.materials[material]);
             scene.materials[material].bangs_shadow = Some(BangsShadow { color: shade, ..BangsShadow::default() });
             let Some(mut map) = face_map(scene, material) else { continue };

@@ -54,15 +54,8 @@ fn thresholds_match_the_vectors() {
 
 #[test]
 fn the_built_in_face_keys_bake_and_come_back() {
-    use hikage_character::head::sdf;
-    let keys: Vec<Key> = sdf::angles()
-        .into_iter()
-        .map(|angle| {
-            let picture = sdf::mask(angle);
-            let lit = picture.rgba.iter().map(|p| p[0] > 127).collect();
-            Key { angle_rad: angle.to_radians(), mask: Mask { width: picture.width, height: picture.height, lit } }
-        })
-        .collect();
+    let key = |(angle_rad, side, lit)| Key { angle_rad, mask: Mask { width: side, height: side, lit } };
+    let keys: Vec<Key> = hikage_character::head::sdf::keys().into_iter().map(key).collect();
     let map = bake(&keys).expect("her keys are nested");
     for key in &keys {
         let wrong = map.mask(key.angle_rad).lit.iter().zip(&key.mask.lit).filter(|(a, b)| a != b).count();

@@ -81,8 +81,7 @@ fn read_common(json: &Json, material: &mut Material, textures: &mut Textures, wa
     let color = color.map(|c: f32| (c * strength).clamp(0.0, 1e6));
     material.emission = Emission { color, texture: textures.info(json, "emissiveTexture", warnings)? };
 
-    // Textures for looks, which glTF and MToon have no place for.
-    // Extras may hold anything.
+    // Textures for looks, which glTF and MToon have no place for. Extras of others may hold anything.
     if let Some(maps) = json.get("extras").and_then(|e| e.get("hikage")).filter(Json::is_object) {
         material.authored_highlight = match textures.info(&maps, "highlightBand", warnings)? {
             None => textures.info(&maps, "noseLipHighlight", warnings)?,

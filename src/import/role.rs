@@ -232,16 +232,6 @@ fn expression_targets(scene: &Scene) -> BTreeSet<(usize, usize)> {
 
 fn find_head(scene: &Scene, world: &[Mat4]) -> Option<Head> {
     let node = scene.bone_node(HumanBone::Head)?;
-    let below = |roots: &[usize]| {
-        let mut set: BTreeSet<usize> = roots.iter().copied().collect();
-        // Parents come first, so one pass finds all descendants.
-        for (index, n) in scene.nodes.iter().enumerate() {
-            if n.parent.is_some_and(|p| set.contains(&p)) {
-                set.insert(index);
-            }
-        }
-        set
-    };
     let eyes: Vec<usize> =
         [HumanBone::LeftEye, HumanBone::RightEye].iter().filter_map(|b| scene.bone_node(*b)).collect();
     let place = |n: usize| world.get(n).map(|m| m.w_axis.truncate());
@@ -256,18 +246,14 @@ fn find_head(scene: &Scene, world: &[Mat4]) -> Option<Head> {
         origin + Vec3::new(0.0, 0.8, 0.8) * neck
     };
     let size = gaze.distance(origin).max(0.02);
-    Some(Head { nodes: below(&[node]), eyes: below(&eyes), gaze, size })
+    let of_eyes = eyes.iter().flat_map(|e| scene.descendants(*e)).collect();
+    Some(Head { nodes: scene.descendants(node), eyes: of_eyes, gaze, size })
 }
 
 /// Share of a primitive's vertices that follow a set of nodes.
 fn share(scene: &Scene, primitive: &Primitive, carrier: usize, set: &BTreeSet<usize>) -> f32 {
-    let skin = scene.nodes.get(carrier).and_then(|n| n.skin).and_then(|s| scene.skins.get(s));
-    let per_vertex = primitive.influences.per_vertex;
-    let (Some(skin), true) = (skin, per_vertex > 0) else { return if set.contains(&carrier) { 1.0 } else { 0.0 } };
-    let inside: Vec<bool> = skin.joints.iter().map(|j| set.contains(j)).collect();
-    let pairs = primitive.influences.joints.iter().zip(&primitive.influences.weights);
-    let sum: f32 = pairs.filter(|(j, _)| inside.get(usize::from(**j)).copied().unwrap_or(false)).map(|(_, w)| w).sum();
-    sum / primitive.positions.len().max(1) as f32
+    let shares = scene.shares(carrier, primitive, set);
+    shares.iter().sum::<f32>() / shares.len().max(1) as f32
 }
 
 #[allow(clippy::too_many_arguments, reason = "all of it is evidence, and there is one caller")]
@@ -304,10 +290,7 @@ fn judge(
 
 /// Whether a good part of the primitive hangs before the face at its height.
 fn in_front_of_face(scene: &Scene, world: &[Mat4], head: &Head, primitive: &Primitive, carrier: usize) -> bool {
-    let skin = scene.nodes.get(carrier).and_then(|n| n.skin).and_then(|s| scene.skins.get(s));
-    // At rest most skins agree with their bind pose, in which any one joint takes the mesh to the world.
-    let joint = skin.and_then(|s| Some(world.get(*s.joints.first()?)? * s.joint_from_mesh.first()?));
-    let matrix = joint.or_else(|| world.get(carrier).copied()).unwrap_or(Mat4::IDENTITY);
+    let matrix = scene.rest_placement(world, carrier);
     let before = primitive.positions.iter().filter(|p| {
         let at = (matrix.transform_point3(Vec3::from_array(**p)) - head.gaze) / head.size;
         at.z > -0.25 && at.y.abs() < 0.8 && at.x.abs() < 0.9

@@ -21,8 +21,8 @@ pub(crate) struct Rig {
     pub weights: Vec<(usize, usize)>,
     /// Node of the head bone, and the inverse of its place at rest; the face looks to +Z then.
     pub head: Option<(usize, Mat4)>,
-    /// Box round the parts of the face at rest, character space.
-    pub face: Option<(Vec3, Vec3)>,
+    /// Middle of the head at rest, character space.
+    pub head_middle: Vec3,
 }
 
 #[derive(Debug)]
@@ -31,15 +31,6 @@ pub(crate) enum Palette {
     Rigid(usize),
     /// Joint nodes and `joint_from_mesh`.
     Skin(Vec<(usize, Mat4)>),
-}
-
-impl Rig {
-    /// Middle of the head at rest: a little over the head bone, where the face has no parts of its own.
-    pub fn head_middle(&self) -> Vec3 {
-        let bone = self.head.map(|(_, rest_inverse)| rest_inverse.inverse().w_axis.truncate() + Vec3::Y * 0.1);
-        let face = self.face.map(|(low, high)| (low + high) * 0.5);
-        bone.or(face).unwrap_or_default()
-    }
 }
 
 /// A primitive under a node.
@@ -74,6 +65,10 @@ impl Geometry {
         let mut geometry = Self::default();
         let rest = scene.rest_world_from_nodes();
         geometry.rig.head = scene.bone_node(HumanBone::Head).and_then(|n| Some((n, rest.get(n)?.inverse())));
+        // A little over the bone, at the base of the skull, where there is no face.
+        let over_bone = || Some(geometry.rig.head?.1.inverse().w_axis.truncate() + Vec3::Y * 0.1);
+        let middle = scene.face_box(None).map(|(low, high)| (low + high) * 0.5).or_else(over_bone);
+        geometry.rig.head_middle = middle.unwrap_or_default();
         let mut skin_palettes: HashMap<usize, u32> = HashMap::new();
         let mut parts: Vec<(u32, usize, &Primitive, DeformGroup, Mat4)> = Vec::new();
         for (node_index, mesh) in scene.mesh_nodes() {
@@ -162,10 +157,6 @@ impl Geometry {
         }
         if group.influences_per_vertex > 0 {
             pack_influences(&primitive.influences, &mut self.influences);
-        }
-        if primitive.role == Role::Face && low.is_finite() {
-            let (l, h) = self.rig.face.unwrap_or((low, high));
-            self.rig.face = Some((l.min(low), h.max(high)));
         }
         let start = self.indices.len() as u32;
         // A mirrored node turns its triangles inside out; the front faces are put back here.

@@ -219,13 +219,12 @@ impl Renderer {
     /// The map of the bangs' shadow, where the scene has bangs, hair that casts and a face that receives.
     fn bangs_map(&self, scene: &Scene, geometry: &Geometry) -> Option<BangsMap> {
         let bangs = scene.bangs?;
-        let (low, high) = geometry.rig.face?;
+        let (low, high) = scene.face_box(None)?;
         let casts = geometry.parts.iter().any(|p| p.role == Role::HairFront);
         let receives = scene.materials.iter().any(|m| m.bangs_shadow.is_some());
-        // A body in one piece with the face is taller than wide: the head is its upper end.
-        let half = ((high.x - low.x).max(high.z - low.z) * 0.75).clamp(1e-3, 10.0);
-        let middle = Vec3::new((low.x + high.x) * 0.5, (low.y + high.y) * 0.5, (low.z + high.z) * 0.5);
-        let middle = middle.with_y(middle.y.max(high.y - half * 0.9));
+        // Half as wide again as the head: bangs hang before it.
+        let half = ((high - low).max_element() * 0.75).min(10.0);
+        let middle = (low + high) * 0.5;
         (casts && receives).then(|| BangsMap::new(&self.gpu, bangs, middle, half))
     }
 
@@ -339,7 +338,7 @@ impl GpuScene {
         let to_world = view.instances.first().copied().unwrap_or_default();
         let to_light = to_world.inverse().transform_vector3(view.lights.directional.to_light).normalize_or(Vec3::Z);
         let uniform =
-            CharacterUniform::new(self.head, self.rig.head_middle(), self.bangs.as_ref(), self.eyes_through, to_light);
+            CharacterUniform::new(self.head, self.rig.head_middle, self.bangs.as_ref(), self.eyes_through, to_light);
         gpu.queue.write_buffer(&self.character, 0, bytemuck::bytes_of(&uniform));
     }
 

@@ -7,6 +7,7 @@ mod bangs;
 mod camera;
 mod character;
 mod eyes_through;
+mod head;
 mod light;
 mod mesh;
 mod role;

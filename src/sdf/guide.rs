@@ -1,6 +1,5 @@
 //! Threshold maps from a face's own mesh: a clean border on any character, without painting.
 
-use std::collections::BTreeSet;
 use std::f32::consts::PI;
 
 use glam::{Mat4, Vec2, Vec3};
@@ -39,29 +38,18 @@ struct Corner {
 pub fn face_map(scene: &Scene, material: usize) -> Option<Image> {
     let head = scene.bone_node(HumanBone::Head)?;
     let world = scene.rest_world_from_nodes();
-    let below = descendants(scene, head);
+    let below = scene.descendants(head);
     let faces: Vec<(usize, &Primitive)> = scene
         .mesh_nodes()
         .flat_map(|(node, mesh)| mesh.primitives.iter().map(move |p| (node, p)))
         .filter(|(_, p)| p.material == material && p.role == Role::Face && !p.uvs.first().is_none_or(Vec::is_empty))
         .collect();
     let placed: Vec<(Mat4, Vec<f32>)> =
-        faces.iter().map(|(node, p)| (placement(scene, &world, *node), shares(scene, *node, p, &below))).collect();
+        faces.iter().map(|(node, p)| (scene.rest_placement(&world, *node), scene.shares(*node, p, &below))).collect();
 
     // The proxy: an ellipsoid round what follows the head.
-    let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
-    for ((_, primitive), (matrix, shares)) in faces.iter().zip(&placed) {
-        for (position, share) in primitive.positions.iter().zip(shares) {
-            if *share > 0.9 {
-                let p = matrix.transform_point3(Vec3::from(*position));
-                (low, high) = (low.min(p), high.max(p));
-            }
-        }
-    }
+    let (low, high) = scene.face_box(Some(material))?;
     let (middle, half) = ((low + high) * 0.5, (high - low) * 0.5);
-    if !(half.is_finite() && half.min_element() > 1e-4) {
-        return None;
-    }
     let (mut shared, mut covered) = (0usize, 0usize);
     let mut texels = vec![Texel { value: Vec3::Z, covered: false }; SIDE * SIDE];
     for ((_, primitive), (matrix, shares)) in faces.iter().zip(&placed) {
@@ -89,41 +77,6 @@ pub fn face_map(scene: &Scene, material: usize) -> Option<Image> {
         texels.par_iter().flat_map_iter(|t| [code(t.value.x), code(t.value.y), code(t.value.z), 255]).collect();
     let name = "face shadow".to_owned();
     Some(Image { name, width: SIDE as u32, height: SIDE as u32, pixels, source_bits: 8, ..Image::default() })
-}
-
-/// A node and all below it.
-fn descendants(scene: &Scene, root: usize) -> BTreeSet<usize> {
-    let mut set = BTreeSet::from([root]);
-    // Parents stand before their children.
-    for (index, node) in scene.nodes.iter().enumerate() {
-        if node.parent.is_some_and(|p| set.contains(&p)) {
-            set.insert(index);
-        }
-    }
-    set
-}
-
-/// From mesh to world at rest: any one joint takes a skin there.
-fn placement(scene: &Scene, world: &[Mat4], node: usize) -> Mat4 {
-    let skin = scene.nodes[node].skin.and_then(|s| scene.skins.get(s));
-    let joint = skin.and_then(|s| Some(*world.get(*s.joints.first()?)? * *s.joint_from_mesh.first()?));
-    joint.unwrap_or_else(|| world.get(node).copied().unwrap_or_default())
-}
-
-/// How much of each vertex follows the head.
-fn shares(scene: &Scene, node: usize, primitive: &Primitive, below: &BTreeSet<usize>) -> Vec<f32> {
-    let skin = scene.nodes[node].skin.and_then(|s| scene.skins.get(s));
-    let per_vertex = primitive.influences.per_vertex;
-    let (Some(skin), true) = (skin, per_vertex > 0) else {
-        return vec![f32::from(u8::from(below.contains(&node))); primitive.positions.len()];
-    };
-    let follows = |joint: &u16| skin.joints.get(usize::from(*joint)).is_some_and(|n| below.contains(n));
-    let vertices = primitive.influences.joints.chunks(per_vertex).zip(primitive.influences.weights.chunks(per_vertex));
-    let mut shares: Vec<f32> = vertices
-        .map(|(joints, weights)| joints.iter().zip(weights).filter(|(j, _)| follows(j)).map(|(_, w)| w).sum())
-        .collect();
-    shares.resize(primitive.positions.len(), 0.0);
-    shares
 }
 
 fn corner(primitive: &Primitive, v: usize, matrix: &Mat4, share: f32, middle: Vec3, half: Vec3) -> Corner {

@@ -28,3 +28,15 @@ impl Mask {
         Self { width: image.width, height: image.height, lit }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_picture_is_lit_over_one_half() {
+        let pixels = [127u8, 128, 255, 0].iter().flat_map(|c| [*c, 0, 0, 255]).collect();
+        let mask = Mask::from_image(&Image { width: 2, height: 2, pixels, ..Image::default() });
+        assert_eq!(mask, Mask::from_fn(2, 2, |x, y| (x, y) == (1, 0) || (x, y) == (0, 1)));
+    }
+}

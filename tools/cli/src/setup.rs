@@ -59,12 +59,8 @@ pub(crate) fn look(name: LookName, model: Option<&Path>) -> Result<Look, Failure
         (LookName::Plain, _) => Ok(Look::Plain),
         (LookName::Anime, Some(_)) => Ok(Look::Anime { face: None }),
         (LookName::Anime, None) => {
-            let key = |angle: f32| {
-                let picture = sdf::mask(angle);
-                let lit = picture.rgba.iter().map(|p| p[0] > 127).collect();
-                Key { angle_rad: angle.to_radians(), mask: Mask { width: picture.width, height: picture.height, lit } }
-            };
-            let keys: Vec<Key> = sdf::angles().into_iter().map(key).collect();
+            let key = |(angle_rad, side, lit)| Key { angle_rad, mask: Mask { width: side, height: side, lit } };
+            let keys: Vec<Key> = sdf::keys().into_iter().map(key).collect();
             Ok(Look::Anime { face: Some(bake(&keys)?) })
         }
     }

@@ -101,12 +101,8 @@ impl Studio {
 
 #[test]
 fn the_anime_look_is_as_before() {
-    let key = |angle: f32| {
-        let picture = sdf::mask(angle);
-        let lit = picture.rgba.iter().map(|p| p[0] > 127).collect();
-        Key { angle_rad: angle.to_radians(), mask: Mask { width: picture.width, height: picture.height, lit } }
-    };
-    let painted = bake(&sdf::angles().into_iter().map(key).collect::<Vec<_>>()).expect("her keys are nested");
+    let key = |(angle_rad, side, lit)| Key { angle_rad, mask: Mask { width: side, height: side, lit } };
+    let painted = bake(&sdf::keys().into_iter().map(key).collect::<Vec<_>>()).expect("her keys are nested");
     let mut studio = Studio::open_with(|scene| Look::Anime { face: Some(painted) }.apply(scene));
     for degrees in [-120, -75, -40, 0, 40, 75, 120] {
         studio.light_deg = [degrees as f32, 25.0];

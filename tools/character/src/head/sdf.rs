@@ -54,6 +54,16 @@ pub fn angles() -> Vec<f32> {
     document().keys
 }
 
+/// The keys of the face's shadow: angle of the light, radians, side of the mask, and which of its texels are lit.
+#[must_use]
+pub fn keys() -> Vec<(f32, u32, Vec<bool>)> {
+    let key = |angle: f32| {
+        let picture = mask(angle);
+        (angle.to_radians(), picture.width, picture.rgba.iter().map(|p| p[0] > 127).collect())
+    };
+    angles().into_iter().map(key).collect()
+}
+
 /// The mask at an angle of the light, degrees 0..=180: white where the face is lit, over its texture.
 ///
 /// # Panics
