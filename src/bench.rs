@@ -161,11 +161,12 @@ impl<'a> Stage<'a> {
             self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("bench") });
         self.renderer.encode_deform(&mut encoder, &mut self.uploaded, self.clock.compute_writes());
         self.renderer.encode_bangs_shadow(&mut encoder, &self.uploaded);
+        self.renderer.encode_depth(&mut encoder, &self.uploaded);
         {
             let writes = self.clock.render_writes();
             let mut pass = self.renderer.begin_color_pass(&mut encoder, &self.view, &self.target, writes);
             let scene = &self.uploaded;
-            draw_list::bind_scene(&mut pass, scene, self.renderer.frame_group(), &scene.character_group);
+            draw_list::bind_scene(&mut pass, scene, self.renderer.color_frame_group(scene), &scene.character_group);
             record(&mut pass, self);
         }
         self.clock.resolve(&mut encoder);

@@ -42,7 +42,7 @@ pub mod sdf;
 
 pub use error::{Error, Result};
 pub use gpu::{AdapterInfo, Gpu};
-pub use look::Look;
+pub use look::{Look, LookFile};
 pub use render::{Background, Channel, GpuMemory, GpuScene, Output, Renderer, View, shaders};
 
 /// The code of the README compiles.

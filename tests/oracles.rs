@@ -243,8 +243,10 @@ fn a_face_darkens_once_and_the_same_on_both_sides() {
     let body = "
         let tau = input[base]; let yaw = input[base + 1u]; let softness = input[base + 2u];
         let l = vec3f(max(sin(yaw), 1e-9), 0.0, cos(yaw));
-        output[out] = face_lit(vec2f(0.37, tau), l, softness, 0.35);
-        output[out + 1u] = face_lit(vec2f(tau, 0.37), vec3f(-l.x, 0.0, l.z), softness, 0.35);";
+        let measure = face_measure(face_light_angle(l, 0.35), 0.0);
+        let mirrored = face_measure(face_light_angle(vec3f(-l.x, 0.0, l.z), 0.35), 0.0);
+        output[out] = face_lit(face_side(vec2f(0.37, tau), l.x), measure, softness);
+        output[out + 1u] = face_lit(face_side(vec2f(tau, 0.37), -l.x), mirrored, softness);";
     let found = run(&["face_shadow"], body, &rows, 2);
     let mut before: std::collections::HashMap<(u32, u32), f32> = std::collections::HashMap::new();
     for (row, found) in rows.iter().zip(&found) {
@@ -276,6 +278,88 @@ fn face_light_from_above_has_no_side() {
     assert!(found[90][0] < 1e-3 && found.iter().all(|f| f[1] == 0.0), "straight above: {:?}", found[90]);
 }
 
+/// Between two maps of a stack the threshold is interpolated; below the first and above the last nothing more happens.
+#[test]
+fn a_stack_interpolates_over_the_height_of_the_light() {
+    let pitches = [-30f32, 0.0, 60.0];
+    let rows: Vec<Vec<f32>> = [-90f32, -30.0, -15.0, 0.0, 15.0, 60.0, 90.0].iter().map(|p| vec![p.to_radians()]).collect();
+    let [a, b, c] = pitches.map(f32::to_radians);
+    let body = format!(
+        "let at = face_stack_place(input[base], vec4f({a}, {b}, {c}, 0.0), 3u);
+        output[out] = at.x + at.y;
+        output[out + 1u] = face_stack_place(input[base], vec4f({b}, 0.0, 0.0, 0.0), 1u).y;"
+    );
+    let found = run(&["face_shadow"], &body, &rows, 2);
+    for (i, (found, expected)) in found.iter().zip([0.0, 0.0, 0.5, 1.0, 1.25, 2.0, 2.0]).enumerate() {
+        assert_close("stack", i, found, &[expected, 0.0], 1e-5);
+    }
+}
+
+/// The second maps take over round 90 degrees; masks act in their sector alone and only darken.
+#[test]
+fn second_maps_and_masks_keep_to_their_sectors() {
+    let rows: Vec<Vec<f32>> = (0..=180).map(|d| vec![d as f32 / 180.0]).collect();
+    let body = "
+        let angle = input[base];
+        output[out] = face_back_share(angle);
+        output[out + 1u] = face_masked(1.0, 0.0, 1.0, angle);
+        output[out + 2u] = face_masked(1.0, 1.0, 0.0, angle);
+        output[out + 3u] = face_masked(1.0, 1.0, 1.0, angle);
+        output[out + 4u] = face_measure(angle, 1.0);";
+    let found = run(&["face_shadow"], body, &rows, 5);
+    for (degrees, found) in found.iter().enumerate() {
+        let [share, side, back, open, cosine] = [found[0], found[1], found[2], found[3], found[4]];
+        assert!((share == 0.0) == (degrees <= 80) && (share == 1.0) == (degrees >= 100), "{degrees}: {share}");
+        assert!((side == 1.0) == (degrees <= 45 || degrees >= 135), "{degrees}: side {side}");
+        assert!((back == 1.0) == (degrees <= 115), "{degrees}: back {back}");
+        assert!(side >= 0.0 && back >= 0.0 && (open - 1.0).abs() < 1e-6, "{degrees}: {found:?}");
+        let expected = (1.0 - (degrees as f32).to_radians().cos()) / 2.0;
+        assert!((cosine - expected).abs() < 1e-5, "{degrees}: {cosine} for {expected}");
+    }
+}
+
+/// The tint is whole at the border, gone where the band ends, and grows between.
+#[test]
+fn transition_goes_from_its_colour_to_white() {
+    let rows: Vec<Vec<f32>> = (0..=20).map(|i| vec![i as f32 / 20.0]).collect();
+    let body = "write3(out, transition_tint(input[base], vec3f(1.0, 0.8, 0.6), 1.0));
+        output[out + 3u] = transition_tint(input[base], vec3f(0.1), 0.0).x;";
+    let found = run(&["transition"], body, &rows, 4);
+    for (found, expected) in [(&found[0], [1.0, 0.8, 0.6]), (&found[10], [1.0, 0.8, 0.6]), (&found[20], [1.0; 3])] {
+        assert_close("tint", 0, &found[..3], &expected, 1e-6);
+    }
+    assert!(found.windows(2).all(|w| w[0][1] <= w[1][1]) && found.iter().all(|f| f[3] == 1.0));
+}
+
+/// Lines show in shade alone, that of the nose with its share, blush always; nothing drawn changes nothing.
+#[test]
+fn face_paint_multiplies_where_it_should() {
+    let rows = vec![
+        vec![0.0, 0.0, 0.0, 1.0, 1.0],
+        vec![1.0, 0.0, 0.0, 0.0, 0.0],
+        vec![0.0, 1.0, 0.0, 0.0, 1.0],
+        vec![0.0, 1.0, 0.0, 1.0, 0.0],
+        vec![0.0, 0.0, 1.0, 0.0, 0.5],
+    ];
+    let body = "write3(out, face_paint_factor(input3(base), input[base + 3u], input[base + 4u], vec3f(0.5), 0.5,
+        vec3f(0.2), 0.5));";
+    let found = run(&["face_paint"], body, &rows, 3);
+    for (i, (found, expected)) in found.iter().zip([1.0, 0.75, 1.0, 0.6, 0.6]).enumerate() {
+        assert_close("face paint", i, found, &[expected; 3], 1e-6);
+    }
+}
+
+/// Strands cut nothing at a breakup of 0, and only where a layer is not above them.
+#[test]
+fn strands_break_a_highlight() {
+    let rows = vec![vec![0.6, 0.9, 0.0], vec![1.0, 1.0, 0.5], vec![0.4, 1.0, 0.5], vec![0.4, 0.0, 0.5], vec![0.0, 0.3, 1.0]];
+    let body = "output[out] = highlight_broken(input[base], input[base + 1u], input[base + 2u]);";
+    let found = run(&["highlight"], body, &rows, 1);
+    for (i, (found, expected)) in found.iter().zip([0.6, 1.0, 0.0, 0.8, 0.0]).enumerate() {
+        assert_close("strands", i, found, &[expected], 1e-6);
+    }
+}
+
 #[test]
 fn region_and_strength_blend_into_normal_shading() {
     let rows =
@@ -304,7 +388,7 @@ fn esm_taps_and_composition_match_the_vectors() {
         let rows: Vec<Vec<f32>> = flat("depths").into_iter().map(|d| [&[d], &common[..]].concat()).collect();
         let taps = run(
             &["bangs"],
-            "output[out] = esm_tap(input[base], input[base + 1u], input[base + 2u], input[base + 3u]);",
+            "output[out] = esm_taps(vec4f(input[base]), input[base + 1u], input[base + 2u], input[base + 3u]).x;",
             &rows,
             1,
         );
@@ -328,11 +412,10 @@ fn esm_leaks_at_most_a_hundredth() {
     let rows: Vec<Vec<f32>> = [200.0, 600.0, 1500.0, 5000.0].iter().map(|c: &f32| vec![*c, 100f32.ln() / c]).collect();
     let body = "
         let c = input[base]; let gap = input[base + 1u];
-        output[out] = esm_tap(0.5 - gap, 0.5, c, 0.0);
-        output[out + 1u] = esm_tap(0.5 - 2.0 * gap, 0.5, c, 0.0);
-        output[out + 2u] = esm_tap(0.5 + gap, 0.5, c, 0.0);
+        let taps = esm_taps(vec4f(0.5 - gap, 0.5 - 2.0 * gap, 0.5 + gap, 0.5), 0.5, c, 0.0);
+        write3(out, taps.xyz);
         var sum = 0.0;
-        for (var i = 0; i < 5; i++) { sum += bangs_weight(i, fract(c * 0.0137)); }
+        for (var i = 0; i < BANGS_TAPS; i++) { sum += bangs_weight(i, fract(c * 0.0137)); }
         output[out + 3u] = sum;";
     for (row, found) in rows.iter().zip(run(&["bangs"], body, &rows, 4)) {
         assert!(found[0] <= 0.010_01 && found[1] <= 0.000_11 && found[2] == 1.0, "{row:?}: {found:?}");
@@ -389,11 +472,59 @@ fn eyes_are_pulled_by_metres_and_fade_to_the_side() {
     for (row, found) in rows.iter().zip(run(&["eyes_through"], body, &rows, 2)) {
         assert!((found[0] / found[1] - 1.0).abs() < 1e-5, "{row:?}: {found:?}");
     }
-    let rows: Vec<Vec<f32>> = (0..=90).map(|d| vec![(d as f32).to_radians().cos()]).collect();
-    let body = "output[out] = eyes_through_fade(input[base], vec2f(cos(radians(50.0)), cos(radians(80.0))));";
-    let found = run(&["eyes_through"], body, &rows, 1);
-    assert!(found.windows(2).all(|w| w[1][0] <= w[0][0]), "it only fades");
-    assert!(found[..50].iter().all(|f| f[0] == 1.0) && found[81..].iter().all(|f| f[0] == 0.0));
+    let rows: Vec<Vec<f32>> = (0..=90).map(|d| vec![(d as f32).to_radians()]).collect();
+    let body = "
+        let s = sin(input[base]); let c = cos(input[base]);
+        let yaw = radians(vec2f(50.0, 80.0)); let pitch = radians(vec2f(30.0, 60.0));
+        output[out] = eyes_through_fade(vec3f(s, 0.0, c), yaw, pitch);
+        output[out + 1u] = eyes_through_fade(vec3f(0.0, s, c), yaw, pitch);
+        output[out + 2u] = eyes_through_fade(vec3f(-s, 0.0, c), yaw, pitch);
+        output[out + 3u] = eyes_through_fade(vec3f(0.0, -s, c), yaw, pitch);
+        output[out + 4u] = eyes_through_fade(vec3f(s, 0.0, -c), yaw, pitch);";
+    let found = run(&["eyes_through"], body, &rows, 5);
+    assert!(found.windows(2).all(|w| w[1][0] <= w[0][0] && w[1][1] <= w[0][1]), "it only fades");
+    assert!(found[..50].iter().all(|f| f[0] == 1.0) && found[81..].iter().all(|f| f[0] == 0.0), "to the side");
+    assert!(found[..30].iter().all(|f| f[1] == 1.0) && found[61..].iter().all(|f| f[1] == 0.0), "to above");
+    assert!(found.iter().all(|f| f[0] == f[2] && f[1] == f[3]), "sides are alike");
+    assert!(found[..90].iter().all(|f| f[4] == 0.0), "from behind");
+}
+
+/// Turning view, light and head alike moves no highlight.
+#[test]
+fn highlights_do_not_move_with_everything() {
+    use glam::{Quat, Vec3};
+    let vectors = [Vec3::new(0.3, 0.2, 0.9), Vec3::new(-0.6, 0.7, 0.4), Vec3::Z, Vec3::Y].map(Vec3::normalize);
+    let rows: Vec<Vec<f32>> = (0..64)
+        .map(|i| Quat::from_euler(glam::EulerRot::YXZ, i as f32 * 0.61, i as f32 * 0.37, i as f32 * 0.23))
+        .map(|turn| vectors.iter().flat_map(|v| (turn * *v).to_array()).collect())
+        .collect();
+    let body = "
+        let moved = highlight_offset(input3(base), input3(base + 3u), input3(base + 6u), input3(base + 9u), 0.1, 0.1, 0.1);
+        output[out] = moved.x; output[out + 1u] = moved.y;";
+    let found = run(&["highlight"], body, &rows, 2);
+    for (i, turned) in found.iter().enumerate() {
+        assert_close("turned", i, turned, &found[0], 1e-6);
+    }
+}
+
+/// The rim's place lies as many pixels along the normal as asked, at any height of the picture; creases below the threshold
+/// have none, and neither has the side away from the light.
+#[test]
+fn depth_rims_have_a_width_a_threshold_and_a_side() {
+    let rows = vec![vec![1.0, 0.0], vec![0.0, 0.2], vec![-0.3, 0.4], vec![0.0, 0.0]];
+    let body = "
+        let moved = depth_rim_offset(vec2f(input[base], input[base + 1u]), 4.0, 2048.0);
+        output[out] = moved.x; output[out + 1u] = moved.y;";
+    let found = run(&["depth_rim"], body, &rows, 2);
+    for (i, (found, expected)) in found.iter().zip([[8.0, 0.0], [0.0, -8.0], [-4.8, -6.4], [0.0, 0.0]]).enumerate() {
+        assert_close("rim", i, found, &expected, 1e-5);
+    }
+    let rows = vec![vec![0.02, 0.5], vec![0.04, 0.5], vec![0.05, 0.5], vec![1e9, 0.5], vec![1.0, -0.01], vec![1.0, 0.15]];
+    let body = "output[out] = depth_rim_step(input[base], 0.04) * depth_rim_side(input[base + 1u], vec2f(0.0, 0.3));";
+    let found = run(&["depth_rim"], body, &rows, 1);
+    for (i, (found, expected)) in found.iter().zip([0.0, 0.0, 1.0, 1.0, 0.0, 0.5]).enumerate() {
+        assert_close("rim", i, found, &[expected], 1e-5);
+    }
 }
 
 #[test]

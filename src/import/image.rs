@@ -8,6 +8,7 @@ use std::path::Path;
 use image::{ColorType, DynamicImage, ImageDecoder, codecs};
 
 use crate::scene::Image;
+use crate::sdf::Texels;
 use crate::{Error, Result};
 
 use super::Limits;
@@ -28,6 +29,21 @@ pub fn load(path: impl AsRef<Path>) -> Result<Image> {
     let mut image = decode(&name, &bytes, &limits)?;
     image.name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     Ok(image)
+}
+
+/// Reads an image file as plain numbers with all the bits that it has.
+///
+/// # Errors
+/// Those of [`load`].
+pub fn load_texels(path: impl AsRef<Path>) -> Result<Texels> {
+    let path = path.as_ref();
+    let limits = Limits::default();
+    let name = path.display().to_string();
+    let bytes = read_regular(path, &limits).map_err(|e| read_error(&name, e, &limits))?;
+    let texels = probe("image", &bytes, &limits).and_then(|p| {
+        if p.bits == 16 { p.decode_wide("image", &limits) } else { Ok(Texels::from(&p.decode("image", &limits)?)) }
+    });
+    texels.map_err(|fault| fault.into_error(&name))
 }
 
 /// Decodes an image in memory. `name` stands in errors and becomes the name of the image.
@@ -123,13 +139,29 @@ impl Probe<'_> {
         }
     }
 
-    /// Decodes to RGBA8.
-    pub(super) fn decode(&self, pointer: &str, limits: &Limits) -> super::fault::Result<Image> {
+    /// Decodes a PNG of 16 bits to as many.
+    fn decode_wide(&self, pointer: &str, limits: &Limits) -> super::fault::Result<Texels> {
+        let decoded = guarded(|| {
+            let decoder = codecs::png::PngDecoder::with_limits(Cursor::new(&*self.bytes), self.caps(limits))?;
+            Ok(DynamicImage::from_decoder(decoder)?.into_rgba16())
+        });
+        let picture = decoded.map_err(|m| Fault::new(pointer, format!("png image is corrupt: {m}")))?;
+        let rgba = picture.pixels().map(|p| p.0).collect();
+        Ok(Texels { width: picture.width(), height: picture.height(), rgba, is_8_bit: false })
+    }
+
+    fn caps(&self, limits: &Limits) -> image::Limits {
         let mut caps = image::Limits::default();
         caps.max_image_width = Some(limits.image_size);
         caps.max_image_height = Some(limits.image_size);
         // A decoder may need 16-bit RGBA and as much again for itself.
         caps.max_alloc = Some(self.texture_bytes().saturating_mul(4).saturating_add(1 << 20));
+        caps
+    }
+
+    /// Decodes to RGBA8.
+    pub(super) fn decode(&self, pointer: &str, limits: &Limits) -> super::fault::Result<Image> {
+        let caps = self.caps(limits);
         let cursor = Cursor::new(&*self.bytes);
         let (name, pixels) = match self.format {
             Format::Png => ("png", guarded(|| rgba8(codecs::png::PngDecoder::with_limits(cursor, caps)?))),

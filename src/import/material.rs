@@ -87,6 +87,7 @@ fn read_common(json: &Json, material: &mut Material, textures: &mut Textures, wa
             None => textures.info(&maps, "noseLipHighlight", warnings)?,
             band => band,
         };
+        material.authored_face_paint = textures.info(&maps, "facePaint", warnings)?;
     }
 
     material.double_sided = json.bool("doubleSided")?.unwrap_or(false);
@@ -122,6 +123,7 @@ fn texture_refs(material: &mut Material) -> impl Iterator<Item = &mut TextureRef
         material.outline.as_mut().and_then(|o| o.width_mask.as_mut()),
         material.uv_animation.mask.as_mut(),
         material.authored_highlight.as_mut(),
+        material.authored_face_paint.as_mut(),
     ]
     .into_iter()
     .chain(toon)

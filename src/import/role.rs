@@ -56,9 +56,14 @@ const WORDS: &[Words] = &[
         part: &["eyewhite", "eye_white", "whiteeye", "shirome", "sirome", "白目", "眼白"],
     },
     Words {
+        role: Role::EyeHighlight,
+        whole: &[],
+        part: &["eyehighlight", "eye_highlight", "eyehilight", "highlight_eye", "瞳孔高光", "目ハイライト", "目の光", "眼高光"],
+    },
+    Words {
         role: Role::Eye,
         whole: &["eye", "eyes", "iris", "pupil", "pupils", "hitomi"],
-        part: &["eyeiris", "eyehighlight", "eyeball", "瞳", "目", "眼"],
+        part: &["eyeiris", "eyeball", "瞳", "目", "眼"],
     },
     Words {
         role: Role::Mouth,
@@ -269,7 +274,7 @@ fn judge(
 ) -> Role {
     let on_head = share(scene, primitive, carrier, &head.nodes);
     match named {
-        Some(Role::Eye | Role::EyeWhite | Role::Lash | Role::Brow | Role::Mouth | Role::Face) if on_head < 0.3 => {
+        Some(Role::Eye | Role::EyeHighlight | Role::EyeWhite | Role::Lash | Role::Brow | Role::Mouth | Role::Face) if on_head < 0.3 => {
             Role::Accessory
         }
         Some(Role::Hair | Role::HairFront) => {

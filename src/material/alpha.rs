@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// Opacity and draw order of a material.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
+#[serde(default, deny_unknown_fields)]
 pub struct Alpha {
     /// How alpha is used. Default: opaque.
     pub mode: AlphaMode,

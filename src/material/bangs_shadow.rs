@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 /// How a surface shows the shadow that front hair casts on it. The hair, the direction and the softness are those of
 /// [`Bangs`](crate::scene::Bangs).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
+#[serde(default, deny_unknown_fields)]
 pub struct BangsShadow {
     /// What lit colour is multiplied by in full shadow, linear. Range 0..1. Default: a warm dark, (0.86, 0.58, 0.52).
     pub color: [f32; 3],
@@ -14,10 +14,12 @@ pub struct BangsShadow {
     /// Shares of light between which the shadow fades: equal ones give a hard edge. Range 0..1, growing.
     /// Default: (0.3, 0.7).
     pub edges: [f32; 2],
+    /// Receives the shadow of lids and lashes too, as the eyeball does. Default: false.
+    pub lids: bool,
 }
 
 impl Default for BangsShadow {
     fn default() -> Self {
-        Self { color: [0.86, 0.58, 0.52], strength: 1.0, edges: [0.3, 0.7] }
+        Self { color: [0.86, 0.58, 0.52], strength: 1.0, edges: [0.3, 0.7], lids: false }
     }
 }

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// Lit colour (glTF base colour, MToon lit colour).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
+#[serde(default, deny_unknown_fields)]
 pub struct Base {
     /// Factor, linear RGBA. Range 0..1. Default: white.
     pub color: [f32; 4],
@@ -20,6 +20,7 @@ impl Default for Base {
 
 /// Tangent-space normal map, glTF convention (+Y up), linear.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct NormalMap {
     /// Texture, linear.
     pub texture: TextureRef,
@@ -27,9 +28,15 @@ pub struct NormalMap {
     pub scale: f32,
 }
 
+impl Default for NormalMap {
+    fn default() -> Self {
+        Self { texture: TextureRef::default(), scale: 1.0 }
+    }
+}
+
 /// Light of its own, added after shading.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
+#[serde(default, deny_unknown_fields)]
 pub struct Emission {
     /// Colour, linear, times its strength; may exceed 1. Default: black.
     pub color: [f32; 3],
@@ -39,7 +46,7 @@ pub struct Emission {
 
 /// A texture as a material uses it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
+#[serde(default, deny_unknown_fields)]
 pub struct TextureRef {
     /// Index in [`Scene::textures`](crate::scene::Scene::textures).
     pub texture: usize,
@@ -51,7 +58,7 @@ pub struct TextureRef {
 
 /// UV transform of `KHR_texture_transform`: scale, then rotate counter-clockwise (v grows downwards), then offset.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
+#[serde(default, deny_unknown_fields)]
 pub struct UvTransform {
     /// Offset, UV units. Default: 0.
     pub offset: [f32; 2],

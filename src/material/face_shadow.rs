@@ -2,29 +2,38 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::TextureRef;
-
 /// Where light and shade meet on a face, by the angle of the directional light about the head. Other lights shade the
 /// face by its normals.
 ///
 /// The angle is measured in the frame of the head bone as it is posed: turning head and light together changes nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
+#[serde(default, deny_unknown_fields)]
 pub struct FaceShadow {
-    /// Threshold map, linear, in lilToon's layout. Red is for light from the character's right, green for light from
-    /// the left: the angle over π at which a texel turns dark; 0 is never lit, 1 always. Blue is the share of normal
-    /// shading (1 on the neck, so that no seam shows), alpha the strength of the map. Default: texture 0.
-    pub map: TextureRef,
-    /// Half width of the soft border, angle over π. Below 1/128 a map of 8 bits shows steps. Range 0.001..0.5.
-    /// Default: 0.012.
+    /// Index in [`Scene::face_maps`](crate::scene::Scene::face_maps); laid over UV set 0. Default: 0.
+    pub map: usize,
+    /// Measure of the thresholds. Default: linear.
+    pub angle: AngleMapping,
+    /// Half width of the soft border, in units of the thresholds, of which half a turn has 1. Below 1/128 a map of 8 bits
+    /// shows steps. Range 0.001..0.5. Default: 0.012.
     pub softness: f32,
     /// Where the horizontal part of the direction to the light is shorter than this, the angle fades to that of light
     /// from the front: straight above there is none. Range 0.01..1. Default: 0.35.
     pub overhead_fade: f32,
 }
 
+/// What a threshold between 0 and 1 says about the angle of the light, which is 0 in front and π behind.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum AngleMapping {
+    /// Angle over π.
+    #[default]
+    Linear,
+    /// (1 - cos angle) / 2.
+    Cosine,
+}
+
 impl Default for FaceShadow {
     fn default() -> Self {
-        Self { map: TextureRef::default(), softness: 0.012, overhead_fade: 0.35 }
+        Self { map: 0, angle: AngleMapping::default(), softness: 0.012, overhead_fade: 0.35 }
     }
 }

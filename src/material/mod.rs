@@ -3,30 +3,38 @@
 mod alpha;
 mod bangs_shadow;
 mod base;
+mod depth_rim;
+mod face_paint;
 mod face_shadow;
 mod highlight;
+mod layer;
 mod matcap;
 mod outline;
 mod rim;
 mod toon;
+mod transition;
 mod uv_animation;
 
 pub use alpha::{Alpha, AlphaMode};
 pub use bangs_shadow::BangsShadow;
 pub use base::{Base, Emission, NormalMap, TextureRef, UvTransform};
-pub use face_shadow::FaceShadow;
+pub use depth_rim::DepthRim;
+pub use face_paint::FacePaint;
+pub use face_shadow::{AngleMapping, FaceShadow};
 pub use highlight::Highlight;
+pub use layer::Layer;
 pub use matcap::Matcap;
 pub use outline::{Outline, OutlineWidth};
 pub use rim::Rim;
 pub use toon::{Shading, Toon};
+pub use transition::Transition;
 pub use uv_animation::UvAnimation;
 
 use serde::{Deserialize, Serialize};
 
 /// A material.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
+#[serde(default, deny_unknown_fields)]
 pub struct Material {
     /// Name in the file; may be empty.
     pub name: String,
@@ -48,6 +56,10 @@ pub struct Material {
     pub shading: Shading,
     /// Shadow of a face by a threshold map. Default: none.
     pub face_shadow: Option<FaceShadow>,
+    /// Tint of light that is about to turn into shade. Default: none.
+    pub transition: Option<Transition>,
+    /// Blush and lines. Default: none.
+    pub face_paint: Option<FacePaint>,
     /// Shadow of the front hair on it. Default: none.
     pub bangs_shadow: Option<BangsShadow>,
     /// Painted highlight that moves. Default: none.
@@ -55,10 +67,16 @@ pub struct Material {
     /// A highlight that the file carries for looks that use one (`extras.hikage.highlightBand` or `noseLipHighlight`).
     /// Default: none.
     pub authored_highlight: Option<TextureRef>,
+    /// The same for blush and lines (`extras.hikage.facePaint`). Default: none.
+    pub authored_face_paint: Option<TextureRef>,
+    /// Place in a stack of cards. Default: none.
+    pub layer: Option<Layer>,
     /// A picture of light looked up by the view-space normal. Default: none.
     pub matcap: Option<Matcap>,
     /// Light along the contour.
     pub rim: Rim,
+    /// Light along the contour, by depth. Default: none.
+    pub depth_rim: Option<DepthRim>,
     /// Line around the shape. Default: none.
     pub outline: Option<Outline>,
 }

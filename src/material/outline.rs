@@ -6,7 +6,7 @@ use super::TextureRef;
 
 /// Outline of MToon.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
+#[serde(default, deny_unknown_fields)]
 pub struct Outline {
     /// Width and its unit. Default: world, 0.
     pub width: OutlineWidth,

@@ -6,7 +6,7 @@ use super::TextureRef;
 
 /// Parametric rim of MToon.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
+#[serde(default, deny_unknown_fields)]
 pub struct Rim {
     /// Colour, linear. Range 0..1. Default: black (off).
     pub color: [f32; 3],

@@ -22,7 +22,7 @@ impl Default for Shading {
 
 /// Two-tone shading of `VRMC_materials_mtoon` 1.0.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
+#[serde(default, deny_unknown_fields)]
 pub struct Toon {
     /// Colour in shade, linear. Range 0..1. Default: black, as in the specification.
     pub shade_color: [f32; 3],

@@ -6,7 +6,7 @@ use super::TextureRef;
 
 /// UV animation of MToon; moves all textures but the matcap.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
+#[serde(default, deny_unknown_fields)]
 pub struct UvAnimation {
     /// Mask of the motion: blue channel, linear. Default: none.
     pub mask: Option<TextureRef>,

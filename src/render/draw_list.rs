@@ -2,7 +2,10 @@
 
 use glam::Vec3;
 
-use super::{pass::Mark, upload::GpuScene};
+use super::{
+    pass::{Mark, SurfaceFlags},
+    upload::GpuScene,
+};
 
 /// One draw: a range of indices under one material, with the pipelines that show it.
 #[derive(Debug)]
@@ -17,8 +20,13 @@ pub(crate) struct Draw {
     pub surface: wgpu::RenderPipeline,
     pub outline: Option<wgpu::RenderPipeline>,
     pub prepass: wgpu::RenderPipeline,
+    /// Writes its depth for rims.
+    pub depth: Option<wgpu::RenderPipeline>,
+    pub flags: SurfaceFlags,
     /// Where it casts the shadow of the bangs.
     pub bangs: Option<wgpu::RenderPipeline>,
+    /// Where it casts the shadow of lids and lashes.
+    pub lids: Option<wgpu::RenderPipeline>,
     pub mark: Mark,
     /// Draws an eye over the hair before it.
     pub through: Option<wgpu::RenderPipeline>,
@@ -60,4 +68,24 @@ pub(crate) fn record(pass: &mut wgpu::RenderPass<'_>, scene: &GpuScene, draw: &D
     pass.set_pipeline(pipeline);
     pass.set_bind_group(2, &scene.material_groups[draw.material], &[]);
     pass.draw_indexed(draw.indices.clone(), 0, 0..scene.instance_rows.len() as u32);
+}
+
+/// [`record`] with the stencil's reference for `mark`, which holds the number of the character. A crowd larger than there
+/// are numbers shares each among neighbours.
+pub(crate) fn record_marked(
+    pass: &mut wgpu::RenderPass<'_>,
+    scene: &GpuScene,
+    draw: &Draw,
+    pipeline: &wgpu::RenderPipeline,
+    mark: Mark,
+) {
+    pass.set_pipeline(pipeline);
+    pass.set_bind_group(2, &scene.material_groups[draw.material], &[]);
+    let instances = scene.instance_rows.len() as u32;
+    let block = if mark.is_numbered() { instances.div_ceil(Mark::NUMBERS).max(1) } else { instances.max(1) };
+    for number in 0..instances.div_ceil(block) {
+        pass.set_stencil_reference(mark.reference(number));
+        let first = number * block;
+        pass.draw_indexed(draw.indices.clone(), 0, first..(first + block).min(instances));
+    }
 }

@@ -17,8 +17,9 @@ use std::time::Duration;
 pub use upload::{GpuMemory, GpuScene};
 pub use view::{Background, Channel, View};
 
-use crate::{Error, Gpu, Result, gpu::MAX_TEXTURE_SIDE, scene::Image};
+use crate::{Error, Gpu, Result, color::Srgb, gpu::MAX_TEXTURE_SIDE, scene::Image};
 use pass::{
+    bangs_near::BangsNearPass,
     bangs_shadow::{BangsShadowInputs, BangsShadowPass},
     deform::{DeformInputs, DeformPass},
     eyes_through::{EyesThroughInputs, EyesThroughPass},
@@ -68,6 +69,7 @@ pub struct Renderer {
     pub(crate) output: Output,
     pub(crate) layouts: Layouts,
     pub(crate) deform: DeformPass,
+    pub(crate) bangs_near: BangsNearPass,
     pub(crate) bangs_shadow: BangsShadowPass,
     pub(crate) prepass: PrepassPass,
     pub(crate) opaque: OpaquePass,
@@ -78,6 +80,7 @@ pub struct Renderer {
     frame_group: wgpu::BindGroup,
     color_targets: Option<ColorTargets>,
     prepass_targets: Option<PrepassTargets>,
+    frame_depth: Option<FrameDepth>,
     picture_target: Option<wgpu::Texture>,
 }
 
@@ -110,16 +113,13 @@ impl Renderer {
                 usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
                 mapped_at_creation: false,
             });
-            let frame_group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-                label: Some("frame"),
-                layout: &layouts.frame,
-                entries: &[wgpu::BindGroupEntry { binding: 0, resource: frame_uniform.as_entire_binding() }],
-            });
+            let frame_group = frame_group(gpu, &layouts, &frame_uniform, &targets::depth_map(gpu, [1, 1]));
             Self {
                 gpu: gpu.clone(),
                 output,
                 layouts,
                 deform: DeformPass::new(gpu),
+                bangs_near: BangsNearPass::new(gpu),
                 bangs_shadow: BangsShadowPass::new(gpu),
                 prepass: PrepassPass::new(gpu),
                 opaque: OpaquePass::new(gpu, output),
@@ -130,6 +130,7 @@ impl Renderer {
                 frame_group,
                 color_targets: None,
                 prepass_targets: None,
+                frame_depth: None,
                 picture_target: None,
             }
         })
@@ -143,8 +144,15 @@ impl Renderer {
         view.check()?;
         let gpu = self.gpu.clone();
         gpu.scoped(|| {
-            if view.channel != Channel::Final {
+            if view.channel.is_geometry() {
                 return self.render_channel(scene, view);
+            }
+            if let Some(code) = view.channel.shader_code() {
+                let shaded = scene.show_channel(self, code);
+                let view = View { channel: Channel::Final, background: Background::Color(Srgb([0; 3])), ..view.clone() };
+                let picture = self.render(scene, &view);
+                scene.show_again(shaded);
+                return picture;
             }
             let texture = match self.picture_target.take() {
                 Some(t) if [t.width(), t.height()] == view.size => t,
@@ -183,9 +191,11 @@ impl Renderer {
         self.encode_deform(encoder, scene, None);
         // Front hair from the light of its shadow on the face.
         self.encode_bangs_shadow(encoder, scene);
+        // Depth of all surfaces, where a rim reads it.
+        self.encode_depth(encoder, scene);
         // One colour pass: opaque, outlines and transparent share their targets, so samples are resolved once.
         let mut pass = self.begin_color_pass(encoder, view, target, None);
-        draw_list::bind_scene(&mut pass, scene, &self.frame_group, &scene.character_group);
+        draw_list::bind_scene(&mut pass, scene, self.color_frame_group(scene), &scene.character_group);
         // Body, face, hair.
         self.opaque.encode(&mut pass, &OpaqueInputs { scene });
         // Lines around them, hidden where a surface is nearer.
@@ -219,6 +229,11 @@ impl Renderer {
         if self.color_targets.as_ref().is_none_or(|t| t.size != view.size) && view.channel == Channel::Final {
             self.color_targets = Some(ColorTargets::new(&self.gpu, view.size, self.output));
         }
+        if scene.has_depth_rim && self.frame_depth.as_ref().is_none_or(|d| d.size != view.size) {
+            let depth = targets::depth_map(&self.gpu, view.size);
+            let group = frame_group(&self.gpu, &self.layouts, &self.frame_uniform, &depth);
+            self.frame_depth = Some(FrameDepth { size: view.size, view: depth, group });
+        }
     }
 
     pub(crate) fn encode_deform(
@@ -234,7 +249,14 @@ impl Renderer {
 
     pub(crate) fn encode_bangs_shadow(&self, encoder: &mut wgpu::CommandEncoder, scene: &GpuScene) {
         if let Some(map) = &scene.bangs {
-            self.bangs_shadow.encode(encoder, &BangsShadowInputs { scene, frame: &self.frame_group, map });
+            let inputs = BangsShadowInputs { scene, frame: &self.frame_group, reduce: &self.bangs_near, map };
+            self.bangs_shadow.encode(encoder, &inputs);
+        }
+    }
+
+    pub(crate) fn encode_depth(&self, encoder: &mut wgpu::CommandEncoder, scene: &GpuScene) {
+        if let (true, Some(depth)) = (scene.has_depth_rim, &self.frame_depth) {
+            self.prepass.encode_depth(encoder, scene, &self.frame_group, &depth.view);
         }
     }
 
@@ -273,8 +295,10 @@ impl Renderer {
         })
     }
 
-    pub(crate) fn frame_group(&self) -> &wgpu::BindGroup {
-        &self.frame_group
+    /// Group 0 of the colour pass: with the depth of the frame where a rim reads it.
+    pub(crate) fn color_frame_group(&self, scene: &GpuScene) -> &wgpu::BindGroup {
+        let depth = self.frame_depth.as_ref().filter(|_| scene.has_depth_rim);
+        depth.map_or(&self.frame_group, |d| &d.group)
     }
 
     /// Renders one of the prepass's channels as a picture.
@@ -293,12 +317,36 @@ impl Renderer {
         let texture = match view.channel {
             Channel::Depth => &targets.depth,
             Channel::PartId => &targets.part,
-            Channel::Final | Channel::Normal => &targets.normal,
+            _ => &targets.normal,
         };
         let texels = readback::read_texels(&self.gpu, texture, FRAME_TIMEOUT)?;
         self.prepass_targets = Some(targets);
         Ok(view.channel.picture(view, texels))
     }
+}
+
+/// Depth of all surfaces, for rims, and group 0 with it.
+#[derive(Debug)]
+struct FrameDepth {
+    size: [u32; 2],
+    view: wgpu::TextureView,
+    group: wgpu::BindGroup,
+}
+
+fn frame_group(
+    gpu: &Gpu,
+    layouts: &Layouts,
+    uniform: &wgpu::Buffer,
+    depth: &wgpu::TextureView,
+) -> wgpu::BindGroup {
+    gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some("frame"),
+        layout: &layouts.frame,
+        entries: &[
+            wgpu::BindGroupEntry { binding: 0, resource: uniform.as_entire_binding() },
+            wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::TextureView(depth) },
+        ],
+    })
 }
 
 impl Layouts {
@@ -312,10 +360,21 @@ impl Layouts {
         let entry = |binding, visibility, ty| wgpu::BindGroupLayoutEntry { binding, visibility, ty, count: None };
         let frame = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("frame"),
-            entries: &[entry(0, both, uniform(size_of::<FrameUniform>() as u64))],
+            entries: &[
+                entry(0, both, uniform(size_of::<FrameUniform>() as u64)),
+                entry(
+                    1,
+                    wgpu::ShaderStages::FRAGMENT,
+                    wgpu::BindingType::Texture {
+                        sample_type: wgpu::TextureSampleType::Depth,
+                        view_dimension: wgpu::TextureViewDimension::D2,
+                        multisampled: false,
+                    },
+                ),
+            ],
         });
         let mut entries = vec![entry(0, both, uniform(size_of::<uniforms::MaterialUniform>() as u64))];
-        for slot in 0..11 {
+        for slot in 0..upload::TEXTURE_SLOTS as u32 {
             // The width mask of the outline and the mask of the UV animation that moves it are read by vertices.
             let stages = if matches!(slot, 7 | 8) {
                 both
@@ -327,7 +386,11 @@ impl Layouts {
                 stages,
                 wgpu::BindingType::Texture {
                     sample_type: wgpu::TextureSampleType::Float { filterable: true },
-                    view_dimension: wgpu::TextureViewDimension::D2,
+                    view_dimension: if slot == upload::FACE_SLOT as u32 {
+                        wgpu::TextureViewDimension::D2Array
+                    } else {
+                        wgpu::TextureViewDimension::D2
+                    },
                     multisampled: false,
                 },
             ));
@@ -336,18 +399,21 @@ impl Layouts {
         let material = gpu
             .device
             .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("material"), entries: &entries });
+        let numbers = wgpu::BindingType::Texture {
+            sample_type: wgpu::TextureSampleType::Float { filterable: false },
+            view_dimension: wgpu::TextureViewDimension::D2Array,
+            multisampled: false,
+        };
         let character = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("character"),
             entries: &[
                 entry(0, both, uniform(size_of::<uniforms::CharacterUniform>() as u64)),
+                entry(1, wgpu::ShaderStages::FRAGMENT, numbers),
+                entry(2, wgpu::ShaderStages::FRAGMENT, numbers),
                 entry(
-                    1,
+                    3,
                     wgpu::ShaderStages::FRAGMENT,
-                    wgpu::BindingType::Texture {
-                        sample_type: wgpu::TextureSampleType::Float { filterable: false },
-                        view_dimension: wgpu::TextureViewDimension::D2,
-                        multisampled: false,
-                    },
+                    wgpu::BindingType::Sampler(wgpu::SamplerBindingType::NonFiltering),
                 ),
             ],
         });

@@ -56,6 +56,20 @@ pub(crate) fn target(
     })
 }
 
+/// Depth that a shader reads.
+pub(crate) fn depth_map(gpu: &Gpu, size: [u32; 2]) -> wgpu::TextureView {
+    view(&gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("depth map"),
+        size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: DEPTH_FORMAT,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
+        view_formats: &[],
+    }))
+}
+
 pub(crate) fn view(texture: &wgpu::Texture) -> wgpu::TextureView {
     texture.create_view(&wgpu::TextureViewDescriptor::default())
 }

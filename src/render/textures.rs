@@ -13,6 +13,7 @@ use crate::{
     color::{linear_from_srgb, srgb_from_linear},
     gpu::MAX_TEXTURE_SIDE,
     scene::{Filter, Image, Sampler, Texture, Wrap},
+    sdf::FaceMap,
 };
 
 /// What the numbers of an image mean.
@@ -31,7 +32,11 @@ pub(crate) struct TextureSet {
     samplers: HashMap<Sampler, wgpu::Sampler>,
     /// White, sRGB: stands where a material has no texture.
     white: wgpu::TextureView,
+    /// The same where a shader expects layers.
+    white_array: wgpu::TextureView,
     default_sampler: wgpu::Sampler,
+    clamped_sampler: wgpu::Sampler,
+    face_maps: Vec<wgpu::TextureView>,
     /// Texel bytes of all textures, mips included.
     pub bytes: u64,
 }
@@ -43,6 +48,7 @@ impl TextureSet {
         gpu: &Gpu,
         textures: &[Texture],
         uses: &[(usize, Encoding)],
+        face_maps: &[FaceMap],
         mut take: impl FnMut(usize) -> Option<Cow<'a, Image>>,
     ) -> Result<Self> {
         let mut wanted: BTreeMap<usize, BTreeSet<Encoding>> = BTreeMap::new();
@@ -77,13 +83,23 @@ impl TextureSet {
         for texture in textures {
             samplers.entry(texture.sampler).or_insert_with(|| sampler(gpu, texture.sampler));
         }
+        let white = upload(gpu, &white, &[], Encoding::Srgb)?;
+        let clamp = Sampler { wrap_u: Wrap::Clamp, wrap_v: Wrap::Clamp, ..Sampler::default() };
         Ok(Self {
             views,
             samplers,
-            white: upload(gpu, &white, &[], Encoding::Srgb)?,
+            white_array: array_view(white.texture()),
+            white,
             default_sampler: sampler(gpu, Sampler::default()),
-            bytes,
+            clamped_sampler: sampler(gpu, clamp),
+            face_maps: face_maps.iter().map(|map| face_map(gpu, map)).collect::<Result<_>>()?,
+            bytes: bytes + face_maps.iter().map(FaceMap::bytes).sum::<u64>(),
         })
+    }
+
+    /// View and sampler of a face map, or white.
+    pub fn face(&self, map: Option<usize>) -> (&wgpu::TextureView, &wgpu::Sampler) {
+        (map.and_then(|m| self.face_maps.get(m)).unwrap_or(&self.white_array), &self.clamped_sampler)
     }
 
     /// View and sampler of a scene's texture, or white.
@@ -97,6 +113,87 @@ impl TextureSet {
         let found = texture.and_then(|t| Some((self.views.get(&(t.image, encoding))?, self.samplers.get(&t.sampler)?)));
         found.unwrap_or((&self.white, &self.default_sampler))
     }
+}
+
+/// Threshold maps of a face as one texture array; texels outside its border repeat it.
+pub(crate) fn face_map(gpu: &Gpu, map: &FaceMap) -> Result<wgpu::TextureView> {
+    map.check()?;
+    if map.width.max(map.height) > MAX_TEXTURE_SIDE {
+        return Err(Error::Argument {
+            what: format!("face map {:?}", map.name),
+            message: format!("is {}x{}; expected at most {MAX_TEXTURE_SIDE} texels a side", map.width, map.height),
+        });
+    }
+    let layers: Vec<&[[u16; 4]]> = map.layers().collect();
+    let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some(&map.name),
+        size: wgpu::Extent3d {
+            width: map.width,
+            height: map.height,
+            depth_or_array_layers: layers.len() as u32,
+        },
+        mip_level_count: map.width.max(map.height).ilog2() + 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        // 16-bit normalised formats are optional; half floats hold 11 bits of the upper half of the range and more below.
+        format: if map.is_8_bit {
+            wgpu::TextureFormat::Rgba8Unorm
+        } else {
+            wgpu::TextureFormat::Rgba16Float
+        },
+        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+        view_formats: &[],
+    });
+    for (layer, texels) in (0..).zip(layers) {
+        let (mut width, mut height) = (map.width, map.height);
+        let mut level = Cow::Borrowed(texels);
+        for mip_level in 0.. {
+            let bytes: Vec<u8> = if map.is_8_bit {
+                level.iter().flatten().map(|c| ((u32::from(*c) + 128) / 257) as u8).collect()
+            } else {
+                level.iter().flatten().flat_map(|c| half::f16::from_f32(f32::from(*c) / 65535.0).to_le_bytes()).collect()
+            };
+            gpu.queue.write_texture(
+                wgpu::TexelCopyTextureInfo {
+                    texture: &texture,
+                    mip_level,
+                    origin: wgpu::Origin3d { x: 0, y: 0, z: layer },
+                    aspect: wgpu::TextureAspect::All,
+                },
+                &bytes,
+                wgpu::TexelCopyBufferLayout {
+                    offset: 0,
+                    bytes_per_row: Some(width * if map.is_8_bit { 4 } else { 8 }),
+                    rows_per_image: None,
+                },
+                wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+            );
+            if width == 1 && height == 1 {
+                break;
+            }
+            level = Cow::Owned(halve_wide(&level, width, height));
+            (width, height) = ((width / 2).max(1), (height / 2).max(1));
+        }
+    }
+    Ok(array_view(&texture))
+}
+
+fn array_view(texture: &wgpu::Texture) -> wgpu::TextureView {
+    texture.create_view(&wgpu::TextureViewDescriptor {
+        dimension: Some(wgpu::TextureViewDimension::D2Array),
+        ..Default::default()
+    })
+}
+
+/// Box filter to half size.
+fn halve_wide(source: &[[u16; 4]], width: u32, height: u32) -> Vec<[u16; 4]> {
+    let (w, h) = ((width / 2).max(1), (height / 2).max(1));
+    let at = |x: u32, y: u32| source[(y.min(height - 1) * width + x.min(width - 1)) as usize];
+    let texel = |x: u32, y: u32| {
+        let four = [at(2 * x, 2 * y), at(2 * x + 1, 2 * y), at(2 * x, 2 * y + 1), at(2 * x + 1, 2 * y + 1)];
+        std::array::from_fn(|c| ((four.iter().map(|t| u32::from(t[c])).sum::<u32>() + 2) / 4) as u16)
+    };
+    (0..h).flat_map(|y| (0..w).map(move |x| (x, y))).map(|(x, y)| texel(x, y)).collect()
 }
 
 /// Longest wait for a batch of textures.
@@ -168,6 +265,14 @@ fn halve(source: &[u8], width: u32, height: u32, encoding: Encoding, tables: &Ta
 
 fn average(values: [u8; 4]) -> u8 {
     ((values.iter().map(|&v| u32::from(v)).sum::<u32>() + 2) / 4) as u8
+}
+
+/// A texture of one image alone.
+pub(crate) fn single(gpu: &Gpu, image: &Image, encoding: Encoding) -> Result<wgpu::TextureView> {
+    // A broken image has no mips to make.
+    let whole = image.pixels.len() as u64 == u64::from(image.width) * u64::from(image.height) * 4;
+    let mips = if whole { mip_chain(image, encoding, &Tables::new()) } else { Vec::new() };
+    upload(gpu, image, &mips, encoding)
 }
 
 fn upload(gpu: &Gpu, image: &Image, mips: &[Level], encoding: Encoding) -> Result<wgpu::TextureView> {

@@ -4,10 +4,14 @@ use bytemuck::{Pod, Zeroable};
 use glam::{Mat4, Vec3};
 
 use crate::{
-    material::{Material, OutlineWidth, Shading, TextureRef, UvTransform},
+    material::{AngleMapping, Material, OutlineWidth, Shading, TextureRef, UvTransform},
     render::{View, pass::bangs_shadow::BangsMap},
     scene::{EyesThrough, MAX_PUNCTUAL_LIGHTS},
+    sdf::{FaceMap, MAX_PITCHES},
 };
+
+/// Distance between two cards of a stack, metres.
+const LAYER_STEP_M: f32 = 1e-4;
 
 /// `PunctualLight` of `wgsl/bind/frame.wgsl`.
 #[repr(C)]
@@ -34,7 +38,7 @@ pub struct FrameUniform {
     pub light_color: [f32; 3],
     pub punctual_count: u32,
     pub ambient_sky: [f32; 3],
-    pub padding_sky: f32,
+    pub near: f32,
     pub ambient_ground: [f32; 3],
     pub padding_ground: f32,
     pub punctual: [PunctualLightUniform; MAX_PUNCTUAL_LIGHTS],
@@ -73,7 +77,28 @@ pub struct MaterialUniform {
     pub normal_scale: f32,
     pub face_softness: f32,
     pub face_overhead_fade: f32,
-    pub padding: f32,
+    pub face_cosine: f32,
+    pub face_pitches: [f32; MAX_PITCHES],
+    pub face_pitch_count: u32,
+    pub layer_pull: f32,
+    pub stay_lit: f32,
+    pub transition_width: f32,
+    pub transition_color: [f32; 3],
+    pub transition_strength: f32,
+    pub blush_color: [f32; 3],
+    pub blush_strength: f32,
+    pub line_color: [f32; 3],
+    pub shadow_line_strength: f32,
+    pub nose_line_yaw: [f32; 2],
+    pub nose_line_strength: f32,
+    pub depth_rim_width: f32,
+    pub depth_rim_color: [f32; 3],
+    pub depth_rim_threshold: f32,
+    pub depth_rim_side: [f32; 2],
+    pub second_motion: f32,
+    pub second_strength: f32,
+    pub second_color: [f32; 3],
+    pub highlight_breakup: f32,
     pub bangs_color: [f32; 3],
     pub bangs_strength: f32,
     pub bangs_edges: [f32; 2],
@@ -93,8 +118,8 @@ pub struct MaterialUniform {
     pub rim_mask_uv: UvTransformUniform,
     pub outline_mask_uv: UvTransformUniform,
     pub animation_mask_uv: UvTransformUniform,
-    pub face_uv: UvTransformUniform,
     pub highlight_uv: UvTransformUniform,
+    pub face_paint_uv: UvTransformUniform,
 }
 
 /// `Character` of `wgsl/bind/character.wgsl`.
@@ -114,8 +139,8 @@ pub struct CharacterUniform {
     pub bangs_bias: f32,
     pub through_opacity: f32,
     pub through_window: f32,
-    pub through_fade: [f32; 2],
-    pub padding: [f32; 2],
+    pub through_fade_yaw: [f32; 2],
+    pub through_fade_pitch: [f32; 2],
     pub head: [f32; 3],
     pub padding_head: f32,
 }
@@ -208,7 +233,7 @@ impl FrameUniform {
             light_color: lights.directional.color.scaled(lights.directional.intensity).0,
             punctual_count: lights.punctual.len().min(MAX_PUNCTUAL_LIGHTS) as u32,
             ambient_sky: lights.ambient.sky.0,
-            padding_sky: 0.0,
+            near: camera.near,
             ambient_ground: lights.ambient.ground.0,
             padding_ground: 0.0,
             punctual,
@@ -230,8 +255,8 @@ impl UvTransformUniform {
 }
 
 impl MaterialUniform {
-    /// Uniform of a material.
-    pub fn new(material: &Material) -> Self {
+    /// Uniform of a material; `face_maps` are those of its scene.
+    pub fn new(material: &Material, face_maps: &[FaceMap]) -> Self {
         let toon = match material.shading {
             Shading::Toon(toon) => toon,
             Shading::Unlit => crate::material::Toon::default(),
@@ -240,6 +265,12 @@ impl MaterialUniform {
         let face = material.face_shadow.unwrap_or_default();
         let bangs = material.bangs_shadow.unwrap_or_default();
         let highlight = material.highlight.unwrap_or_default();
+        let transition = material.transition.unwrap_or_default();
+        let paint = material.face_paint.unwrap_or_default();
+        let layer = material.layer.unwrap_or_default();
+        let rim = material.depth_rim.unwrap_or_default();
+        let pitches = face_maps.get(face.map).map_or([0.0].as_slice(), |m| m.pitches_rad.as_slice());
+        let scaled = |color: [f32; 3], by: f32| color.map(|c| c * by);
         let cutoff = match material.alpha.mode {
             crate::material::AlphaMode::Mask => material.alpha.cutoff,
             _ => 0.5,
@@ -269,7 +300,28 @@ impl MaterialUniform {
             normal_scale: material.normal_map.map_or(1.0, |n| n.scale),
             face_softness: face.softness,
             face_overhead_fade: face.overhead_fade,
-            padding: 0.0,
+            face_cosine: f32::from(u8::from(face.angle == AngleMapping::Cosine)),
+            face_pitches: std::array::from_fn(|i| pitches.get(i).copied().unwrap_or(0.0)),
+            face_pitch_count: pitches.len().clamp(1, MAX_PITCHES) as u32,
+            layer_pull: layer.index.clamp(-8, 8) as f32 * LAYER_STEP_M,
+            stay_lit: layer.stay_lit,
+            transition_width: transition.width.max(1e-3),
+            transition_color: transition.color,
+            transition_strength: transition.strength,
+            blush_color: paint.blush_color,
+            blush_strength: paint.blush_strength,
+            line_color: paint.line_color,
+            shadow_line_strength: paint.shadow_line_strength,
+            nose_line_yaw: paint.nose_line_yaw_rad,
+            nose_line_strength: paint.nose_line_strength,
+            depth_rim_width: rim.width_px,
+            depth_rim_color: scaled(rim.color, rim.strength),
+            depth_rim_threshold: rim.threshold_m,
+            depth_rim_side: rim.light_side,
+            second_motion: highlight.second_motion,
+            second_strength: highlight.second_strength,
+            second_color: highlight.second_color,
+            highlight_breakup: highlight.breakup,
             bangs_color: bangs.color,
             bangs_strength: bangs.strength,
             bangs_edges: bangs.edges,
@@ -289,8 +341,8 @@ impl MaterialUniform {
             rim_mask_uv: UvTransformUniform::new(material.rim.mask),
             outline_mask_uv: UvTransformUniform::new(outline.width_mask),
             animation_mask_uv: UvTransformUniform::new(material.uv_animation.mask),
-            face_uv: UvTransformUniform::new(Some(face.map)),
             highlight_uv: UvTransformUniform::new(Some(highlight.map)),
+            face_paint_uv: UvTransformUniform::new(Some(paint.map)),
         }
     }
 }
@@ -323,8 +375,8 @@ impl CharacterUniform {
             bangs_bias: bias,
             through_opacity: through.map_or(0.0, |t| t.opacity),
             through_window: through.map_or(0.0, |t| t.window_m),
-            through_fade: through.map_or([1.0, 0.0], |t| t.fade_rad.map(f32::cos)),
-            padding: [0.0; 2],
+            through_fade_yaw: through.map_or([0.0; 2], |t| t.fade_yaw_rad),
+            through_fade_pitch: through.map_or([0.0; 2], |t| t.fade_pitch_rad),
             head: head.transform_point3(middle).to_array(),
             padding_head: 0.0,
         }

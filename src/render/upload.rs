@@ -15,14 +15,15 @@ use super::{
         color_depth_format,
         deform::DeformBuffers,
     },
-    textures::{Encoding, TextureSet},
+    textures::{self, Encoding, TextureSet},
     uniforms::{AffineRows, CharacterUniform, MaterialUniform},
 };
 use crate::{
-    Gpu, Result,
+    Error, Gpu, Result,
     material::{AlphaMode, Material, Shading, TextureRef},
     motion::Pose,
     scene::{EyesThrough, Image, Role, Scene},
+    sdf::FaceMap,
 };
 
 /// A scene on the GPU, ready to be drawn. Made by [`Renderer::upload`].
@@ -45,6 +46,11 @@ pub struct GpuScene {
     character: wgpu::Buffer,
     pub(crate) materials: wgpu::Buffer,
     pub(crate) material_groups: Vec<wgpu::BindGroup>,
+    /// Textures of each material, in the order of their slots.
+    material_textures: Vec<Vec<(wgpu::TextureView, wgpu::Sampler)>>,
+    /// Whether a material has a rim by depth.
+    pub(crate) has_depth_rim: bool,
+    face_maps: Vec<FaceMap>,
     pub(crate) draws: Vec<Draw>,
     pub(crate) transparent_order: Vec<usize>,
     /// Eyes and brows that are seen through hair, the foremost first.
@@ -59,6 +65,13 @@ pub struct GpuScene {
     part_materials: Vec<usize>,
     triangles: usize,
     texture_bytes: u64,
+}
+
+/// Pipelines of a draw that a debug channel replaces.
+pub(crate) struct Shaded {
+    surface: wgpu::RenderPipeline,
+    through: Option<wgpu::RenderPipeline>,
+    outline: Option<wgpu::RenderPipeline>,
 }
 
 /// Lists that every pose fills anew, kept so that an animated character allocates nothing.
@@ -91,7 +104,8 @@ impl Renderer {
         let gpu = self.gpu.clone();
         gpu.scoped(|| {
             let borrow = |index| scene.images.get(index).map(Cow::Borrowed);
-            let textures = TextureSet::new(&self.gpu, &scene.textures, &texture_uses(&scene.materials), borrow)?;
+            let uses = texture_uses(&scene.materials);
+            let textures = TextureSet::new(&self.gpu, &scene.textures, &uses, &scene.face_maps, borrow)?;
             self.upload_with(scene, &textures)
         })?
     }
@@ -104,13 +118,13 @@ impl Renderer {
     pub fn upload_and_empty_images(&mut self, scene: &mut Scene) -> Result<GpuScene> {
         let gpu = self.gpu.clone();
         gpu.scoped(|| {
-            let Scene { textures, images, materials, .. } = scene;
+            let Scene { textures, images, materials, face_maps, .. } = scene;
             let take = |index: usize| {
                 let image = images.get_mut(index)?;
                 let pixels = std::mem::take(&mut image.pixels);
                 Some(Cow::Owned(Image { pixels, ..image.clone() }))
             };
-            let textures = TextureSet::new(&self.gpu, textures, &texture_uses(materials), take)?;
+            let textures = TextureSet::new(&self.gpu, textures, &texture_uses(materials), face_maps, take)?;
             self.upload_with(scene, &textures)
         })?
     }
@@ -126,33 +140,35 @@ impl Renderer {
         use wgpu::BufferUsages as U;
         let mut uniforms = vec![0u8; scene.materials.len().max(1) * MATERIAL_STRIDE as usize];
         for (chunk, material) in uniforms.chunks_exact_mut(MATERIAL_STRIDE as usize).zip(&scene.materials) {
-            chunk[..size_of::<MaterialUniform>()].copy_from_slice(bytemuck::bytes_of(&MaterialUniform::new(material)));
+            let uniform = MaterialUniform::new(material, &scene.face_maps);
+            chunk[..size_of::<MaterialUniform>()].copy_from_slice(bytemuck::bytes_of(&uniform));
         }
         let materials = buffer("materials", &uniforms, U::UNIFORM | U::COPY_DST);
-        let material_groups = scene
-            .materials
-            .iter()
-            .enumerate()
-            .map(|(index, material)| self.material_group(scene, material, index, &materials, textures))
-            .collect();
+        let material_textures: Vec<Vec<_>> =
+            scene.materials.iter().map(|material| material_textures(scene, material, textures)).collect();
+        let material_groups =
+            (0..).zip(&material_textures).map(|(index, bound)| self.material_group(index, &materials, bound)).collect();
 
         let indices = buffer("indices", bytemuck::cast_slice(&geometry.indices), U::INDEX);
         let static_vertices = buffer("static vertices", bytemuck::cast_slice(&geometry.static_vertices), U::VERTEX);
         let character = buffer("character", &[0; size_of::<CharacterUniform>()], U::UNIFORM | U::COPY_DST);
         let bangs = self.bangs_map(scene, &geometry);
-        let no_map = map_texture(&self.gpu, 1);
-        let character_group = |map| {
+        let gather = device.create_sampler(&wgpu::SamplerDescriptor { label: Some("bangs"), ..Default::default() });
+        let no_map = map_texture(&self.gpu, 1, 1);
+        let character_group = |map, near| {
             self.gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
                 label: Some("character"),
                 layout: &self.layouts.character,
                 entries: &[
                     wgpu::BindGroupEntry { binding: 0, resource: character.as_entire_binding() },
                     wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::TextureView(map) },
+                    wgpu::BindGroupEntry { binding: 2, resource: wgpu::BindingResource::TextureView(near) },
+                    wgpu::BindGroupEntry { binding: 3, resource: wgpu::BindingResource::Sampler(&gather) },
                 ],
             })
         };
-        let character_group_without_map = character_group(&no_map);
-        let character_group = character_group(bangs.as_ref().map_or(&no_map, |b| &b.view));
+        let character_group_without_map = character_group(&no_map, &no_map);
+        let character_group = bangs.as_ref().map_or_else(|| character_group_without_map.clone(), |b| character_group(&b.view, &b.near));
         let deform = self.deform.buffers(&self.gpu, &geometry.deform_input());
         let draws = self.make_draws(scene, &geometry.parts);
         let mut uploaded = GpuScene {
@@ -169,6 +185,10 @@ impl Renderer {
             character,
             materials,
             material_groups,
+            material_textures,
+            has_depth_rim: draws.iter().any(|d| d.flags.depth_rim),
+            // The numbers alone: what they point to is on the GPU.
+            face_maps: scene.face_maps.iter().map(FaceMap::without_texels).collect(),
             transparent_order: Vec::with_capacity(draws.len()),
             through_order: through_order(&draws),
             eyes_through: scene.eyes_through,
@@ -188,11 +208,9 @@ impl Renderer {
 
     fn material_group(
         &self,
-        scene: &Scene,
-        material: &Material,
         index: usize,
         uniforms: &wgpu::Buffer,
-        textures: &TextureSet,
+        bound: &[(wgpu::TextureView, wgpu::Sampler)],
     ) -> wgpu::BindGroup {
         let mut entries = vec![wgpu::BindGroupEntry {
             binding: 0,
@@ -202,18 +220,39 @@ impl Renderer {
                 size: wgpu::BufferSize::new(size_of::<MaterialUniform>() as u64),
             }),
         }];
-        for (slot, (texture, encoding)) in texture_slots(material).into_iter().enumerate() {
-            let (view, sampler) = textures.get(&scene.textures, texture, encoding);
-            let binding = 1 + 2 * slot as u32;
+        for (slot, (view, sampler)) in (0..).zip(bound) {
+            let binding = 1 + 2 * slot;
             entries.push(wgpu::BindGroupEntry { binding, resource: wgpu::BindingResource::TextureView(view) });
             entries
                 .push(wgpu::BindGroupEntry { binding: binding + 1, resource: wgpu::BindingResource::Sampler(sampler) });
         }
         self.gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some(&material.name),
+            label: Some("material"),
             layout: &self.layouts.material,
             entries: &entries,
         })
+    }
+
+    /// Shows another picture in place of a material's base texture from the next frame on: the iris of an eye, its lights,
+    /// a pattern of cloth. The picture is sRGB.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for a material that is not there or has had no base texture at its upload, and for a picture
+    /// whose size does not fit its bytes.
+    pub fn replace_base_texture(&self, scene: &mut GpuScene, material: usize, image: &Image) -> Result<()> {
+        let has_one = scene.source_materials.get(material).is_some_and(|m| m.base.texture.is_some());
+        if !has_one {
+            let message = "is not there or has no base texture; materials get theirs before the upload".to_owned();
+            return Err(Error::Argument { what: format!("material {material}"), message });
+        }
+        self.gpu.scoped(|| {
+            let view = textures::single(&self.gpu, image, Encoding::Srgb)?;
+            // Where lit and shade share their texture, the first slot serves both.
+            scene.material_textures[material][0].0 = view;
+            scene.material_groups[material] =
+                self.material_group(material, &scene.materials, &scene.material_textures[material]);
+            Ok(())
+        })?
     }
 
     /// The map of the bangs' shadow, where the scene has bangs, hair that casts and a face that receives.
@@ -222,10 +261,11 @@ impl Renderer {
         let (low, high) = scene.face_box(None)?;
         let casts = geometry.parts.iter().any(|p| p.role == Role::HairFront);
         let receives = scene.materials.iter().any(|m| m.bangs_shadow.is_some());
+        let lids = scene.materials.iter().any(|m| m.bangs_shadow.is_some_and(|b| b.lids));
         // Half as wide again as the head: bangs hang before it.
         let half = ((high - low).max_element() * 0.75).min(10.0);
         let middle = (low + high) * 0.5;
-        (casts && receives).then(|| BangsMap::new(&self.gpu, bangs, middle, half))
+        ((casts || lids) && receives).then(|| BangsMap::new(&self.gpu, &self.bangs_near, bangs, middle, half, lids))
     }
 
     /// One draw for each opaque material, one for each transparent part; outlines likewise.
@@ -233,11 +273,14 @@ impl Renderer {
         let driven = Driven::of(scene);
         let has_stencil = color_depth_format(&self.gpu).has_stencil_aspect();
         let has_marks = scene.eyes_through.is_some() && has_stencil;
+        let has_lids = scene.bangs.is_some() && scene.materials.iter().any(|m| m.bangs_shadow.is_some_and(|b| b.lids));
+        let has_depth_rim = scene.materials.iter().any(|m| m.depth_rim.is_some_and(|r| r.strength > 0.0));
         let mut draws: Vec<Draw> = Vec::new();
         for part in parts {
             let Some(material) = scene.materials.get(part.material) else { continue };
             let blend = material.alpha.mode == AlphaMode::Blend;
             let casts_bangs = scene.bangs.is_some() && part.role == Role::HairFront && !blend;
+            let casts_lids = has_lids && matches!(part.role, Role::Face | Role::Lash) && !blend;
             let mark = if has_marks && !blend {
                 mark(part.role)
             } else {
@@ -249,12 +292,13 @@ impl Renderer {
                 && last.material == part.material
                 && last.indices.end == part.indices.start
                 && last.bangs.is_some() == casts_bangs
+                && last.lids.is_some() == casts_lids
                 && last.mark == mark
             {
                 last.indices.end = part.indices.end;
                 continue;
             }
-            let flags = SurfaceFlags::of(material, &driven[part.material], part.has_vertex_colors);
+            let flags = SurfaceFlags::of(material, &driven[part.material], part.has_vertex_colors, &scene.face_maps);
             draws.push(Draw {
                 material: part.material,
                 indices: part.indices.clone(),
@@ -268,15 +312,21 @@ impl Renderer {
                     self.opaque.pipeline(&self.gpu, &self.layouts, flags, material, mark)
                 },
                 outline: self.outline.pipeline(&self.gpu, &self.layouts, flags, material, &driven[part.material]),
-                prepass: self.prepass.pipeline(&self.gpu, &self.layouts, flags, material),
+                prepass: self.prepass.pipeline(&self.gpu, &self.layouts, flags, material, false),
+                depth: (has_depth_rim && !blend)
+                    .then(|| self.prepass.pipeline(&self.gpu, &self.layouts, flags, material, true)),
+                flags,
                 mark,
                 through: (mark == Mark::Eyes)
                     .then(|| self.eyes_through.pipeline(&self.gpu, &self.layouts, flags, material)),
                 bangs: casts_bangs.then(|| self.bangs_shadow.pipeline(&self.gpu, &self.layouts, flags, material)),
+                lids: casts_lids.then(|| self.bangs_shadow.pipeline(&self.gpu, &self.layouts, flags, material)),
             });
         }
-        // Hair marks what it hides last. The sort is stable and leaves blended draws at the end.
-        draws.sort_by_key(|d| (d.blend, has_marks.then_some(d.mark)));
+        // Hair marks what it hides last; cards of a stack follow each other. The sort is stable and leaves blended draws at
+        // the end.
+        let layer = |d: &Draw| scene.materials[d.material].layer.map_or(0, |l| l.index);
+        draws.sort_by_key(|d| (d.blend, has_marks.then_some(d.mark), if d.blend { 0 } else { layer(d) }));
         draws
     }
 }
@@ -284,7 +334,7 @@ impl Renderer {
 /// What a part of this role has to do with eyes through hair.
 fn mark(role: Role) -> Mark {
     match role {
-        Role::Eye | Role::EyeWhite | Role::Lash | Role::Brow => Mark::Eyes,
+        Role::Eye | Role::EyeHighlight | Role::EyeWhite | Role::Lash | Role::Brow => Mark::Eyes,
         Role::HairFront | Role::Hair => Mark::Hair,
         _ => Mark::None,
     }
@@ -325,7 +375,7 @@ impl GpuScene {
         }
         for index in self.posed_materials.keys().chain(pose.materials.keys()) {
             if let Some(material) = pose.materials.get(index).or_else(|| self.source_materials.get(*index)) {
-                let uniform = MaterialUniform::new(material);
+                let uniform = MaterialUniform::new(material, &self.face_maps);
                 gpu.queue.write_buffer(&self.materials, *index as u64 * MATERIAL_STRIDE, bytemuck::bytes_of(&uniform));
             }
         }
@@ -340,6 +390,34 @@ impl GpuScene {
         let uniform =
             CharacterUniform::new(self.head, self.rig.head_middle, self.bangs.as_ref(), self.eyes_through, to_light);
         gpu.queue.write_buffer(&self.character, 0, bytemuck::bytes_of(&uniform));
+    }
+
+    /// Puts the pipelines of a debug channel in place of those of the picture, and gives these.
+    pub(crate) fn show_channel(&mut self, renderer: &mut Renderer, channel: u32) -> Vec<Shaded> {
+        let Renderer { gpu, layouts, opaque, transparent, eyes_through, .. } = renderer;
+        let swap = |draw: &mut Draw| {
+            let material = &self.source_materials[draw.material];
+            let flags = SurfaceFlags { channel, ..draw.flags };
+            let surface = if draw.blend {
+                transparent.pipeline(gpu, layouts, flags, material)
+            } else {
+                opaque.pipeline(gpu, layouts, flags, material, draw.mark)
+            };
+            let through = draw.through.as_ref().map(|_| eyes_through.pipeline(gpu, layouts, flags, material));
+            Shaded {
+                surface: std::mem::replace(&mut draw.surface, surface),
+                through: std::mem::replace(&mut draw.through, through),
+                outline: draw.outline.take(),
+            }
+        };
+        self.draws.iter_mut().map(swap).collect()
+    }
+
+    /// Puts the pipelines of the picture back.
+    pub(crate) fn show_again(&mut self, shaded: Vec<Shaded>) {
+        for (draw, Shaded { surface, through, outline }) in self.draws.iter_mut().zip(shaded) {
+            (draw.surface, draw.through, draw.outline) = (surface, through, outline);
+        }
     }
 
     /// Draw calls of one frame with everything in view, outlines included.
@@ -384,8 +462,29 @@ pub(crate) fn instance_buffer(gpu: &Gpu, count: usize) -> wgpu::Buffer {
     })
 }
 
-/// Textures of a material in the order of `wgsl/bind/material.wgsl`.
-fn texture_slots(material: &Material) -> [(Option<usize>, Encoding); 11] {
+/// Textures of a material, and the one of them that is an array.
+pub(crate) const TEXTURE_SLOTS: usize = 12;
+pub(crate) const FACE_SLOT: usize = 9;
+
+/// Views and samplers of a material's textures.
+fn material_textures(
+    scene: &Scene,
+    material: &Material,
+    textures: &TextureSet,
+) -> Vec<(wgpu::TextureView, wgpu::Sampler)> {
+    let bound = texture_slots(material).into_iter().enumerate().map(|(slot, (texture, encoding))| {
+        let (view, sampler) = if slot == FACE_SLOT {
+            textures.face(material.face_shadow.map(|f| f.map))
+        } else {
+            textures.get(&scene.textures, texture, encoding)
+        };
+        (view.clone(), sampler.clone())
+    });
+    bound.collect()
+}
+
+/// Textures of a material in the order of `wgsl/bind/material.wgsl`; that of the face's maps is not among them.
+fn texture_slots(material: &Material) -> [(Option<usize>, Encoding); TEXTURE_SLOTS] {
     let of = |r: Option<TextureRef>| r.map(|r| r.texture);
     let (shade, shift) = match &material.shading {
         Shading::Toon(toon) => (of(toon.shade_texture), of(toon.shift_texture)),
@@ -401,8 +500,9 @@ fn texture_slots(material: &Material) -> [(Option<usize>, Encoding); 11] {
         (of(material.rim.mask), Encoding::Srgb),
         (material.outline.and_then(|o| of(o.width_mask)), Encoding::Linear),
         (of(material.uv_animation.mask), Encoding::Linear),
-        (material.face_shadow.map(|f| f.map.texture), Encoding::Linear),
+        (None, Encoding::Linear),
         (material.highlight.map(|h| h.map.texture), Encoding::Linear),
+        (material.face_paint.map(|p| p.map.texture), Encoding::Linear),
     ]
 }
 

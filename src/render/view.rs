@@ -80,14 +80,49 @@ pub enum Channel {
     /// Part index + 1 in red (low byte) and green (high byte), 0 in the background. Parts are the primitives of the
     /// scene in the order of nodes.
     PartId,
+    /// Share of light by a face's threshold map; dark grey times the light of everything else.
+    FaceShadow,
+    /// Tint of light that is about to turn into shade; white where it does nothing.
+    Transition,
+    /// Blush and lines, as what they multiply.
+    FacePaint,
+    /// Share of painted highlights.
+    Highlight,
+    /// Share of light that bangs, lids and lashes let through; black where nothing receives their shadow.
+    BangsShadow,
+    /// Index of cards in a stack, lighter above; black elsewhere.
+    Layer,
+    /// Rim by depth.
+    DepthRim,
+    /// How much of eyes and brows is seen through hair.
+    EyesThrough,
 }
 
 impl Channel {
+    /// Whether the prepass draws it.
+    pub(crate) fn is_geometry(self) -> bool {
+        matches!(self, Self::Normal | Self::Depth | Self::PartId)
+    }
+
+    /// Number by which shaders know a channel of shading: `CHANNEL_*` in `wgsl/bind/surface.wgsl`.
+    pub(crate) fn shader_code(self) -> Option<u32> {
+        Some(match self {
+            Self::Final | Self::Normal | Self::Depth | Self::PartId => return None,
+            Self::FaceShadow => 1,
+            Self::Transition => 2,
+            Self::FacePaint => 3,
+            Self::Highlight => 4,
+            Self::BangsShadow => 5,
+            Self::Layer => 6,
+            Self::DepthRim => 7,
+            Self::EyesThrough => 8,
+        })
+    }
+
     /// Turns read-back texels of the prepass into a picture.
     pub(crate) fn picture(self, view: &View, texels: Vec<u8>) -> Image {
         let word = |t: &[u8]| u32::from_le_bytes([t[0], t[1], t[2], t[3]]);
         let pixels = match self {
-            Self::Final | Self::Normal => texels,
             Self::PartId => texels
                 .chunks_exact(4)
                 .flat_map(|t| {
@@ -110,6 +145,7 @@ impl Channel {
                     })
                     .collect()
             }
+            _ => texels,
         };
         Image { width: view.size[0], height: view.size[1], pixels, format: "png", source_bits: 8, ..Image::default() }
     }
@@ -170,7 +206,8 @@ impl View {
             };
         let eye = target + Quat::from_rotation_y(yaw_rad) * Vec3::Z * distance;
         let near = (distance * 0.05).clamp(1e-4, 0.1);
-        Self { size, camera: Camera { eye, near, ..camera }, ..Self::default() }
+        let lights = scene.lights.clone().unwrap_or_default();
+        Self { size, camera: Camera { eye, near, ..camera }, lights, ..Self::default() }
     }
 
     /// Refuses what no picture can be made of.

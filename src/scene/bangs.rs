@@ -5,7 +5,8 @@
 /// Hair is every part of the role [`HairFront`](super::Role::HairFront); materials with a
 /// [`BangsShadow`](crate::material::BangsShadow) receive it. The texels of its map have a fixed size in metres, so that
 /// neither zoom nor field of view changes the edge.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct Bangs {
     /// Where the shadow's light stands, in the frame of the head: angle to the character's left, and height over the
     /// front, radians. `None`: where the directional light stands, held within 45 degrees to the sides and between 10

@@ -26,6 +26,7 @@ pub use texture::{Filter, Image, Sampler, Texture, Wrap};
 use glam::{Mat4, Quat, Vec3};
 
 use crate::material::Material;
+use crate::sdf::FaceMap;
 
 /// Everything that a file holds: nodes, meshes, materials, textures, and the character data of VRM.
 #[derive(Clone, Debug, Default)]
@@ -44,10 +45,14 @@ pub struct Scene {
     pub textures: Vec<Texture>,
     /// Decoded images; shared ones stand once.
     pub images: Vec<Image>,
+    /// Threshold maps of faces, referred to by [`FaceShadow::map`](crate::material::FaceShadow::map).
+    pub face_maps: Vec<FaceMap>,
     /// Animation clips stored in the file.
     pub animations: Vec<Animation>,
     /// VRM data: bones, expressions, look-at, springs. `None` for a plain glTF file.
     pub character: Option<Character>,
+    /// Lights that a look asks for; [`View::framed`](crate::View::framed) takes them. `None`: the default ones.
+    pub lights: Option<Lights>,
     /// Light of the shadow that front hair casts on the face. `None`: it casts none.
     pub bangs: Option<Bangs>,
     /// Eyes and brows through hair. `None`: hair hides them.

@@ -11,8 +11,10 @@ pub enum Role {
     HairFront,
     /// All other hair.
     Hair,
-    /// Iris, pupil and eye highlights.
+    /// Iris and pupil.
     Eye,
+    /// Lights drawn on the eye.
+    EyeHighlight,
     /// White of the eye.
     EyeWhite,
     /// Lashes and lid lines.

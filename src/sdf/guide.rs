@@ -5,7 +5,8 @@ use std::f32::consts::PI;
 use glam::{Mat4, Vec2, Vec3};
 use rayon::prelude::*;
 
-use crate::scene::{HumanBone, Image, Primitive, Role, Scene};
+use super::{FaceMap, Texels};
+use crate::scene::{HumanBone, Primitive, Role, Scene};
 
 /// Side of a map, texels.
 const SIDE: usize = 512;
@@ -35,7 +36,7 @@ struct Corner {
 /// looks backwards, is left to normal shading. `None` where the material has no face with texture coordinates, or where
 /// both sides of the face share them: one texel cannot hold the angles of two.
 #[must_use]
-pub fn face_map(scene: &Scene, material: usize) -> Option<Image> {
+pub fn face_map(scene: &Scene, material: usize) -> Option<FaceMap> {
     let head = scene.bone_node(HumanBone::Head)?;
     let world = scene.rest_world_from_nodes();
     let below = scene.descendants(head);
@@ -72,11 +73,10 @@ pub fn face_map(scene: &Scene, material: usize) -> Option<Image> {
     for _ in 0..GROWN {
         grow(&mut texels);
     }
-    let code = |x: f32| (x.clamp(0.0, 1.0) * 255.0).round() as u8;
-    let pixels =
-        texels.par_iter().flat_map_iter(|t| [code(t.value.x), code(t.value.y), code(t.value.z), 255]).collect();
-    let name = "face shadow".to_owned();
-    Some(Image { name, width: SIDE as u32, height: SIDE as u32, pixels, source_bits: 8, ..Image::default() })
+    let code = |x: f32| (x.clamp(0.0, 1.0) * 255.0).round() as u16 * 257;
+    let rgba = texels.par_iter().map(|t| [code(t.value.x), code(t.value.y), code(t.value.z), u16::MAX]).collect();
+    let side = SIDE as u32;
+    Some(FaceMap::single("from the mesh", Texels { width: side, height: side, rgba, is_8_bit: true }))
 }
 
 fn corner(primitive: &Primitive, v: usize, matrix: &Mat4, share: f32, middle: Vec3, half: Vec3) -> Corner {

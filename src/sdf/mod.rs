@@ -5,11 +5,13 @@
 //! and shade glides from one drawing to the next.
 
 mod distance;
+mod face_map;
 mod guide;
 mod mask;
 mod threshold;
 
 pub use distance::{NEVER, distance_squared};
+pub use face_map::{FaceLayout, FaceMap, MAX_PITCHES, Texels};
 pub use guide::face_map;
 pub use mask::Mask;
 pub use threshold::{Key, ThresholdMap, bake};

@@ -2,8 +2,7 @@
 
 use std::f32::consts::PI;
 
-use super::{Mask, NEVER, distance_squared};
-use crate::scene::Image;
+use super::{FaceLayout, Mask, NEVER, Texels, distance_squared};
 use crate::{Error, Result};
 
 /// What is lit at one angle of the light.
@@ -130,19 +129,13 @@ impl ThresholdMap {
         Mask { width: self.width, height: self.height, lit }
     }
 
-    /// The map in lilToon's layout, 8 bits: red for light from the character's right, green for light from her left, blue
+    /// The map in lilToon's layout: red for light from the character's right, green for light from her left, blue
     /// (share of normal shading) 0, alpha (strength) full. This map is for light from her left, which is the right of the
     /// texture; red is its mirror image.
     #[must_use]
-    pub fn mirrored_image(&self) -> Image {
-        let code = |tau: f32| (tau.clamp(0.0, 1.0) * 255.0).round() as u8;
-        let mut pixels = Vec::with_capacity(self.tau.len() * 4);
-        for row in self.tau.chunks_exact((self.width as usize).max(1)) {
-            pixels
-                .extend(row.iter().zip(row.iter().rev()).flat_map(|(left, right)| [code(*right), code(*left), 0, 255]));
-        }
-        let name = "face shadow".to_owned();
-        Image { name, width: self.width, height: self.height, pixels, source_bits: 8, ..Image::default() }
+    pub fn mirrored(&self) -> Texels {
+        let rgba = self.tau.iter().map(|tau| [(tau.clamp(0.0, 1.0) * 65535.0).round() as u16; 4]).collect();
+        Texels { width: self.width, height: self.height, rgba, is_8_bit: false }.laid_out(FaceLayout::Mirrored)
     }
 }
 
@@ -199,9 +192,8 @@ mod tests {
     #[test]
     fn both_sides_are_mirror_images() {
         let map = bake(&keys()).expect("nested keys");
-        let image = map.mirrored_image();
-        for row in image.pixels.chunks_exact(40 * 4) {
-            assert!((0..40).all(|x| row[x * 4] == row[(39 - x) * 4 + 1]));
+        for row in map.mirrored().rgba.chunks_exact(40) {
+            assert!((0..40).all(|x| row[x][0] == row[39 - x][1]));
         }
     }
 }

@@ -1,5 +1,5 @@
 // Group 1: the character that is drawn.
-import package::lib::bangs::{bangs_weight, esm_tap};
+import package::lib::bangs::{BANGS_BLOCK, BANGS_TAPS, bangs_weight, esm_taps};
 
 struct Character {
     // Axes of the face as the head is posed, character space, unit.
@@ -16,38 +16,52 @@ struct Character {
     // Eyes through hair: opacity, metres, cosines between which it fades.
     through_opacity: f32,
     through_window: f32,
-    through_fade: vec2f,
+    // Angles of the view to the side and to above or below at which it begins to fade and has gone, radians.
+    through_fade_yaw: vec2f,
+    through_fade_pitch: vec2f,
     // Middle of the head, character space.
     head: vec3f,
 }
 
 @group(1) @binding(0) var<uniform> character: Character;
-@group(1) @binding(1) var bangs_map: texture_2d<f32>;
+@group(1) @binding(1) var bangs_map: texture_2d_array<f32>;
+// Nearest depth round each block of it.
+@group(1) @binding(2) var bangs_near: texture_2d_array<f32>;
+@group(1) @binding(3) var bangs_sampler: sampler;
+
+// Layers of the map: front hair, and lids with lashes.
+const BANGS_LAYER: i32 = 0;
+const LIDS_LAYER: i32 = 1;
 
 fn bangs_from_character(position: vec3f) -> vec3f {
     let p = vec4f(position, 1.0);
     return vec3f(dot(character.bangs_row_u, p), dot(character.bangs_row_v, p), dot(character.bangs_row_depth, p));
 }
 
-// Share of light that the bangs let through to a place of their map. What lies beyond its border is lit.
-fn bangs_lit(at: vec3f) -> f32 {
-    if any(at.xy <= vec2f(0.0)) || any(at.xy >= vec2f(1.0)) {
-        return 1.0;
-    }
+// Share of light that a layer lets through to a place of the map. What lies beyond its border is lit, and so is what the
+// caller does not need (`wanted`).
+fn bangs_lit(at: vec3f, layer: i32, wanted: bool) -> f32 {
     let side = i32(textureDimensions(bangs_map).x);
+    let block = clamp(vec2i(at.xy * f32(side)) / BANGS_BLOCK, vec2i(0), vec2i(textureDimensions(bangs_near)) - 1);
+    let nearest = textureLoad(bangs_near, block, layer, 0).r;
+    let is_outside = any(at.xy <= vec2f(0.0)) || any(at.xy >= vec2f(1.0));
+    // Nothing hangs before it: every tap would let all light through. A count of 0 rather than a branch, since software
+    // rasterizers walk both sides of branches but leave loops early.
+    let is_lit = is_outside || nearest + character.bangs_bias >= at.z;
+    let rows = select(BANGS_TAPS, 0, is_lit || !wanted);
     let p = at.xy * f32(side) - 0.5;
-    let first = vec2i(floor(p)) - 2;
+    let first = vec2i(floor(p)) - 1;
     let f = fract(p);
-    var lit = 0.0;
-    for (var y = 0; y < 5; y++) {
-        var row = 0.0;
-        for (var x = 0; x < 5; x++) {
-            // Texels at the border stand for what lies beyond.
-            let texel = clamp(first + vec2i(x, y), vec2i(0), vec2i(side - 1));
-            let depth = textureLoad(bangs_map, texel, 0).r;
-            row += bangs_weight(x, f.x) * esm_tap(depth, at.z, character.bangs_hardness, character.bangs_bias);
+    var lit = select(0.0, 1.0, rows == 0);
+    for (var y = 0; y < rows; y += 2) {
+        for (var x = 0; x < BANGS_TAPS; x += 2) {
+            // Four texels about a corner: (0, 1), (1, 1), (1, 0), (0, 0). Those at the border stand for what lies beyond.
+            let corner = (vec2f(first + vec2i(x, y)) + 1.0) / f32(side);
+            let depth = textureGather(0, bangs_map, bangs_sampler, corner, layer);
+            let tap = esm_taps(depth, at.z, character.bangs_hardness, character.bangs_bias);
+            let across = vec2f(bangs_weight(x, f.x), bangs_weight(x + 1, f.x));
+            lit += bangs_weight(y, f.y) * dot(across, tap.wz) + bangs_weight(y + 1, f.y) * dot(across, tap.xy);
         }
-        lit += bangs_weight(y, f.y) * row;
     }
     return lit;
 }

@@ -25,8 +25,18 @@ struct Frame {
     light_color: vec3f,
     punctual_count: u32,
     ambient_sky: vec3f,
+    // Depth is near / distance.
+    near: f32,
     ambient_ground: vec3f,
     punctual: array<PunctualLight, 4>,
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;
+// Depth of all surfaces, one sample a pixel; only where a material has a rim by depth.
+@group(0) @binding(1) var frame_depth: texture_depth_2d;
+
+// Distance along the view of what stands at a pixel, metres; very far where nothing does.
+fn distance_at(pixel: vec2i) -> f32 {
+    let last = vec2i(textureDimensions(frame_depth)) - 1;
+    return frame.near / max(textureLoad(frame_depth, clamp(pixel, vec2i(0), last), 0), 1e-12);
+}

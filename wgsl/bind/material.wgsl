@@ -30,6 +30,32 @@ struct Material {
     // Angle over pi, and horizontal length of the direction to the light.
     face_softness: f32,
     face_overhead_fade: f32,
+    // 1: thresholds are measured by the cosine of the angle.
+    face_cosine: f32,
+    // Heights of the light, radians, for which the maps of the stack are painted, growing.
+    face_pitches: vec4f,
+    face_pitch_count: u32,
+    // Metres by which a card stands before its surface.
+    layer_pull: f32,
+    stay_lit: f32,
+    transition_width: f32,
+    transition_color: vec3f,
+    transition_strength: f32,
+    blush_color: vec3f,
+    blush_strength: f32,
+    line_color: vec3f,
+    shadow_line_strength: f32,
+    nose_line_yaw: vec2f,
+    nose_line_strength: f32,
+    // Pixels of a picture 1024 high, and metres.
+    depth_rim_width: f32,
+    depth_rim_color: vec3f,
+    depth_rim_threshold: f32,
+    depth_rim_side: vec2f,
+    second_motion: f32,
+    second_strength: f32,
+    second_color: vec3f,
+    highlight_breakup: f32,
     bangs_color: vec3f,
     bangs_strength: f32,
     bangs_edges: vec2f,
@@ -49,8 +75,8 @@ struct Material {
     rim_mask_uv: UvTransform,
     outline_mask_uv: UvTransform,
     animation_mask_uv: UvTransform,
-    face_uv: UvTransform,
     highlight_uv: UvTransform,
+    face_paint_uv: UvTransform,
 }
 
 @group(2) @binding(0) var<uniform> material: Material;
@@ -72,7 +98,9 @@ struct Material {
 @group(2) @binding(16) var outline_mask_sampler: sampler;
 @group(2) @binding(17) var animation_mask_texture: texture_2d<f32>;
 @group(2) @binding(18) var animation_mask_sampler: sampler;
-@group(2) @binding(19) var face_texture: texture_2d<f32>;
+@group(2) @binding(19) var face_texture: texture_2d_array<f32>;
 @group(2) @binding(20) var face_sampler: sampler;
 @group(2) @binding(21) var highlight_texture: texture_2d<f32>;
 @group(2) @binding(22) var highlight_sampler: sampler;
+@group(2) @binding(23) var face_paint_texture: texture_2d<f32>;
+@group(2) @binding(24) var face_paint_sampler: sampler;

@@ -23,13 +23,33 @@ override ALPHA_COVERAGE: bool = false;
 override FACE_SHADOW: bool = false;
 // Front hair casts its shadow on it.
 override BANGS_SHADOW: bool = false;
-// A painted highlight that moves.
+// Its map has several pitches of the light; maps for light from the side to the back; masks for side and back.
+override FACE_STACK: bool = false;
+override FACE_BACK: bool = false;
+override FACE_MASKS: bool = false;
+// Light is tinted where it is about to turn into shade.
+override TRANSITION: bool = false;
+// Blush and lines.
+override FACE_PAINT: bool = false;
+// So do lids and lashes.
+override LID_SHADOW: bool = false;
+// A painted highlight that moves; a second layer of it; whether that moves otherwise; strands that break both.
 override HIGHLIGHT: bool = false;
+override HIGHLIGHT_SECOND: bool = false;
+override HIGHLIGHT_APART: bool = false;
+override HIGHLIGHT_BREAKUP: bool = false;
+// A card in a stack.
+override LAYERED: bool = false;
+// Light along the contour, by depth.
+override DEPTH_RIM: bool = false;
+// What is drawn in place of the shaded colour; 0: nothing.
+override CHANNEL: u32 = 0u;
 
 fn surface_options() -> SurfaceOptions {
     return SurfaceOptions(
         UNLIT, BASE_TEXTURE, SHADE_TEXTURE, SHADE_IS_BASE, SHIFT_TEXTURE, NORMAL_MAP, EMISSION_TEXTURE, MATCAP, RIM,
         RIM_MASK, UV_TRANSFORMS, UV_ANIMATION, UV_ANIMATION_MASK, VERTEX_COLOR, ALPHA_MASK, ALPHA_COVERAGE,
-        FACE_SHADOW, BANGS_SHADOW, HIGHLIGHT
+        FACE_SHADOW, FACE_STACK, FACE_BACK, FACE_MASKS, TRANSITION, FACE_PAINT, BANGS_SHADOW, LID_SHADOW, HIGHLIGHT,
+        HIGHLIGHT_SECOND, HIGHLIGHT_APART, HIGHLIGHT_BREAKUP, LAYERED, DEPTH_RIM, CHANNEL
     );
 }

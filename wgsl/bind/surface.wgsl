@@ -1,20 +1,26 @@
 // A toon surface: samples the material's textures and shades. Shared by the opaque, outline and transparent passes.
 // Which parts exist is fixed at pipeline creation, so that what a material does not use costs nothing.
-import package::bind::character::bangs_lit;
-import package::bind::frame::frame;
+import package::bind::character::{BANGS_LAYER, LIDS_LAYER, bangs_lit};
+import package::bind::frame::{distance_at, frame, frame_depth};
 import package::bind::material::{
     UvTransform, material, base_texture, base_sampler, shade_texture, shade_sampler, shift_texture, shift_sampler,
     normal_texture, normal_sampler, emission_texture, emission_sampler, matcap_texture, matcap_sampler,
     rim_mask_texture, rim_mask_sampler, animation_mask_texture, animation_mask_sampler, face_texture, face_sampler,
-    highlight_texture, highlight_sampler,
+    highlight_texture, highlight_sampler, face_paint_texture, face_paint_sampler,
 };
 import package::lib::bangs::bangs_factor;
-import package::lib::face_shadow::{face_lit, face_shading};
+import package::lib::depth_rim::{depth_rim_offset, depth_rim_side, depth_rim_step};
+import package::lib::face_paint::face_paint_factor;
+import package::lib::face_shadow::{
+    face_back_share, face_light_angle, face_lit, face_masked, face_measure, face_shading, face_side, face_stack_place,
+};
+import package::lib::highlight::highlight_broken;
 import package::lib::light::{accumulated_n_dot_l, distance_attenuation, luminance, spot_attenuation};
 import package::lib::mtoon::{
     mtoon_animate_uv, mtoon_direct, mtoon_gi, mtoon_matcap_uv, mtoon_parametric_rim, mtoon_rim, mtoon_shading,
 };
 import package::lib::normal::{normal_from_map, normalize_or};
+import package::lib::transition::transition_tint;
 
 // Parts of a surface; the entry files fill it from their overrides.
 struct SurfaceOptions {
@@ -35,22 +41,52 @@ struct SurfaceOptions {
     alpha_mask: bool,
     alpha_coverage: bool,
     face_shadow: bool,
+    face_stack: bool,
+    face_back: bool,
+    face_masks: bool,
+    transition: bool,
+    face_paint: bool,
     bangs_shadow: bool,
+    lid_shadow: bool,
     highlight: bool,
+    highlight_second: bool,
+    highlight_apart: bool,
+    highlight_breakup: bool,
+    layered: bool,
+    depth_rim: bool,
+    channel: u32,
 }
 
+// Values of `SurfaceOptions.channel`; `Channel::shader_code` in Rust.
+const CHANNEL_FACE_SHADOW: u32 = 1u;
+const CHANNEL_TRANSITION: u32 = 2u;
+const CHANNEL_FACE_PAINT: u32 = 3u;
+const CHANNEL_HIGHLIGHT: u32 = 4u;
+const CHANNEL_BANGS_SHADOW: u32 = 5u;
+const CHANNEL_LAYER: u32 = 6u;
+const CHANNEL_DEPTH_RIM: u32 = 7u;
+const CHANNEL_EYES_THROUGH: u32 = 8u;
+
 struct SurfaceInput {
+    // Pixels from the top left, and depth.
+    pixel: vec3f,
     world_position: vec3f,
     normal: vec3f,
     tangent: vec4f,
     uv: vec4f,
     color: vec4f,
-    // Direction to the directional light in the frame of the face.
-    face_light: vec3f,
+    // Direction to the directional light in the frame of the face, and how far the line of the nose shows.
+    face_light: vec4f,
     // Place in the map of the bangs' shadow.
     bangs: vec3f,
     // Movement of the highlight, and what is left of it.
     highlight: vec3f,
+}
+
+// Input of `surface_texel` where nothing is shaded.
+fn texel_input(uv: vec4f, color: vec4f) -> SurfaceInput {
+    let none = vec3f(0.0);
+    return SurfaceInput(none, none, none, vec4f(0.0), uv, color, vec4f(0.0), none, none);
 }
 
 // UVs of one texture: animation first, then KHR_texture_transform (MToon, "Compatibility with KHR_texture_transform").
@@ -181,28 +217,75 @@ fn shade_surface(options: SurfaceOptions, in: SurfaceInput) -> vec4f {
     }
 
     var shading = mtoon_shading(n_dot_l, shift, material.toony);
+    // The same with the border of the transition.
+    var soft = 1.0;
+    if options.transition {
+        soft = smoothstep(-material.transition_width, material.transition_width, n_dot_l + shift);
+    }
     if options.face_shadow {
-        let map = textureSample(face_texture, face_sampler, texture_uv(options, uv, material.face_uv));
-        let lit = face_lit(map.rg, in.face_light, material.face_softness, material.face_overhead_fade);
-        shading = face_shading(shading, lit, map.b, map.a * directional);
+        let face = face_shading_at(options, in);
+        shading = face_shading(shading, face.lit, face.region, face.strength * directional);
+        if options.transition {
+            soft = face_shading(soft, face.soft, face.region, face.strength * directional);
+        }
+    }
+    if options.layered {
+        shading = max(shading, material.stay_lit);
     }
     let gi = mtoon_gi(ambient(normal.y), frame.ambient_sky, frame.ambient_ground, material.gi_equalization);
-    var direct = mtoon_direct(base.rgb, shade, shading, light);
+    var paint = vec3f(1.0);
+    if options.face_paint {
+        let drawn = textureSample(
+            face_paint_texture, face_paint_sampler, texture_uv(options, uv, material.face_paint_uv)
+        ).rgb;
+        paint = face_paint_factor(
+            drawn, 1.0 - shading, in.face_light.w * material.nose_line_strength, material.blush_color,
+            material.blush_strength, material.line_color, material.shadow_line_strength
+        );
+        base = vec4f(base.rgb * paint, base.a);
+        shade *= paint;
+    }
+    var tint = vec3f(1.0);
+    if options.transition {
+        tint = transition_tint(soft, material.transition_color, material.transition_strength);
+    }
+    var direct = mtoon_direct(base.rgb * tint, shade, shading, light);
+    var bangs = 1.0;
     if options.bangs_shadow {
         // What is in shade already gets no darker.
         let share = shading * directional;
-        if share > 0.0 {
-            let lit = bangs_lit(in.bangs);
-            let factor = bangs_factor(lit, material.bangs_edges, material.bangs_strength, material.bangs_color);
-            direct *= mix(vec3f(1.0), factor, share);
+        bangs = bangs_lit(in.bangs, BANGS_LAYER, share > 0.0);
+        if options.lid_shadow {
+            bangs = min(bangs, bangs_lit(in.bangs, LIDS_LAYER, share > 0.0));
         }
+        let factor = bangs_factor(bangs, material.bangs_edges, material.bangs_strength, material.bangs_color);
+        direct *= mix(vec3f(1.0), factor, share);
     }
+    var shine = 0.0;
     if options.highlight {
         // The map is clamped at its border by its sampler.
-        let at = texture_uv(options, uv, material.highlight_uv) + in.highlight.xy;
-        let mask = textureSample(highlight_texture, highlight_sampler, at).r;
-        let share = mask * material.highlight_strength * in.highlight.z * mix(material.highlight_in_shade, 1.0, shading);
-        direct = mix(direct, material.highlight_color * light, share);
+        let at = texture_uv(options, uv, material.highlight_uv);
+        var layers = textureSample(highlight_texture, highlight_sampler, at + in.highlight.xy).rg;
+        if options.highlight_apart {
+            let below = at + in.highlight.xy * vec2f(1.0, material.second_motion);
+            layers.y = textureSample(highlight_texture, highlight_sampler, below).g;
+        }
+        if options.highlight_breakup {
+            let strand = textureSample(highlight_texture, highlight_sampler, at).b;
+            layers = vec2f(
+                highlight_broken(layers.x, strand, material.highlight_breakup),
+                highlight_broken(layers.y, strand, material.highlight_breakup)
+            );
+        }
+        let left = in.highlight.z * mix(material.highlight_in_shade, 1.0, shading);
+        if options.highlight_second {
+            let second = layers.y * material.second_strength * left;
+            direct = mix(direct, material.second_color * light, second);
+            shine = second;
+        }
+        let first = layers.x * material.highlight_strength * left;
+        direct = mix(direct, material.highlight_color * light, first);
+        shine = max(shine, first);
     }
     var color = direct + gi * base.rgb + emission;
 
@@ -227,5 +310,94 @@ fn shade_surface(options: SurfaceOptions, in: SurfaceInput) -> vec4f {
         }
         color += mtoon_rim(matcap, parametric, mask, light + gi, material.rim_lighting_mix);
     }
+    var contour = 0.0;
+    if options.depth_rim {
+        let seen = (frame.view_from_world * vec4f(normal, 0.0)).xy;
+        let height = f32(textureDimensions(frame_depth).y);
+        let offset = depth_rim_offset(seen, material.depth_rim_width, height);
+        let here = frame.near / max(in.pixel.z, 1e-12);
+        // Two places a pixel apart soften the inner edge.
+        let half_px = offset * (0.5 / max(length(offset), 0.5));
+        let near_step = distance_at(vec2i(floor(in.pixel.xy + offset - half_px))) - here;
+        let far_step = distance_at(vec2i(floor(in.pixel.xy + offset + half_px))) - here;
+        let threshold = material.depth_rim_threshold;
+        contour = 0.5 * (depth_rim_step(near_step, threshold) + depth_rim_step(far_step, threshold))
+            * depth_rim_side(dot(normal, frame.to_light), material.depth_rim_side);
+        color += material.depth_rim_color * frame.light_color * contour;
+    }
+    if options.channel != 0u {
+        color = channel_color(options, shading, tint, paint, shine, bangs, contour);
+    }
     return vec4f(color, base.a);
+}
+
+// What one of the debug channels shows.
+fn channel_color(
+    options: SurfaceOptions, shading: f32, tint: vec3f, paint: vec3f, shine: f32, bangs: f32, contour: f32
+) -> vec3f {
+    switch options.channel {
+        case CHANNEL_FACE_SHADOW { return vec3f(shading) * select(vec3f(0.25), vec3f(1.0), options.face_shadow); }
+        case CHANNEL_TRANSITION { return select(vec3f(0.0), tint, options.transition); }
+        case CHANNEL_FACE_PAINT { return select(vec3f(0.0), paint, options.face_paint); }
+        case CHANNEL_HIGHLIGHT { return vec3f(shine); }
+        case CHANNEL_BANGS_SHADOW { return select(vec3f(0.0), vec3f(bangs), options.bangs_shadow); }
+        case CHANNEL_LAYER { return layer_color(options); }
+        case CHANNEL_DEPTH_RIM { return vec3f(contour); }
+        default { return vec3f(0.0); }
+    }
+}
+
+// Grey by the index of the layer, lighter above; black where there is none.
+fn layer_color(options: SurfaceOptions) -> vec3f {
+    if !options.layered {
+        return vec3f(0.0);
+    }
+    return vec3f(0.5 + material.layer_pull * 500.0);
+}
+
+// Light on a face by its map: with its own border and with that of the transition, share of normal shading, strength.
+struct FaceLight {
+    lit: f32,
+    soft: f32,
+    region: f32,
+    strength: f32,
+}
+
+fn face_shading_at(options: SurfaceOptions, in: SurfaceInput) -> FaceLight {
+    let light = in.face_light.xyz;
+    let angle = face_light_angle(light, material.face_overhead_fade);
+    let measure = face_measure(angle, material.face_cosine);
+    let place = face_stack_place(asin(clamp(light.y, -1.0, 1.0)), material.face_pitches, material.face_pitch_count);
+    var map = face_map_at(options, in.uv.xy, 0, place);
+    var tau = face_side(map.rg, light.x);
+    var lit = face_lit(tau, measure, material.face_softness);
+    var soft = face_lit(tau, measure, material.transition_width);
+    if options.face_back {
+        let back = face_map_at(options, in.uv.xy, i32(material.face_pitch_count), place);
+        let share = face_back_share(angle);
+        tau = face_side(back.rg, light.x);
+        lit = mix(lit, face_lit(tau, measure, material.face_softness), share);
+        soft = mix(soft, face_lit(tau, measure, material.transition_width), share);
+        map = vec4f(map.rg, mix(map.ba, back.ba, share));
+    }
+    if options.face_masks {
+        let layer = i32(material.face_pitch_count) * select(1, 2, options.face_back);
+        let masks = textureSample(face_texture, face_sampler, in.uv.xy, layer);
+        let side = face_side(masks.rg, light.x);
+        let back = face_side(masks.ba, light.x);
+        lit = face_masked(lit, side, back, angle);
+        soft = face_masked(soft, side, back, angle);
+    }
+    return FaceLight(lit, soft, map.b, map.a);
+}
+
+// The map of the stack for the light's height; its thresholds lie between those of the two nearest ones.
+fn face_map_at(options: SurfaceOptions, uv: vec2f, first: i32, place: vec2f) -> vec4f {
+    let low = textureSample(face_texture, face_sampler, uv, first + i32(place.x));
+    if !options.face_stack {
+        return low;
+    }
+    let last = first + i32(material.face_pitch_count) - 1;
+    let high = textureSample(face_texture, face_sampler, uv, min(first + i32(place.x) + 1, last));
+    return mix(low, high, place.y);
 }

@@ -4,6 +4,7 @@ import package::bind::frame::frame;
 import package::bind::material::material;
 import package::bind::surface::{SurfaceInput, SurfaceOptions};
 import package::bind::vertex::{VertexInput, bitangent_sign, world_direction, world_position, world_rotated};
+import package::lib::eyes_through::pulled_depth;
 import package::lib::highlight::{highlight_fade, highlight_offset};
 
 struct Varying {
@@ -13,7 +14,7 @@ struct Varying {
     @location(2) tangent: vec4f,
     @location(3) uv: vec4f,
     @location(4) color: vec4f,
-    @location(5) @interpolate(flat) face_light: vec3f,
+    @location(5) @interpolate(flat) face_light: vec4f,
     @location(6) bangs: vec3f,
     @location(7) @interpolate(flat) highlight: vec3f,
 }
@@ -24,13 +25,16 @@ fn surface_varying(options: SurfaceOptions, v: VertexInput) -> Varying {
     if options.normal_map {
         tangent = vec4f(world_direction(v, v.frame.y), bitangent_sign(v.frame.y));
     }
-    var face_light = vec3f(0.0, 0.0, 1.0);
+    var face_light = vec4f(0.0, 0.0, 1.0, 0.0);
     if options.face_shadow {
-        face_light = vec3f(
-            dot(frame.to_light, world_rotated(v, character.face_left)),
-            dot(frame.to_light, world_rotated(v, character.face_up)),
-            dot(frame.to_light, world_rotated(v, character.face_forward)),
-        );
+        face_light = vec4f(in_face_frame(v, frame.to_light), 0.0);
+    }
+    if options.face_paint {
+        let view = in_face_frame(v, normalize(frame.eye - world_position(v, character.head)));
+        // atan2(0, 0) is left to the driver.
+        let yaw = atan2(abs(view.x), select(1e-6, view.z, abs(view.z) > 1e-6));
+        let fade = material.nose_line_yaw;
+        face_light.w = smoothstep(fade.x, max(fade.y, fade.x + 1e-4), yaw);
     }
     var bangs = vec3f(0.0);
     if options.bangs_shadow {
@@ -47,14 +51,29 @@ fn surface_varying(options: SurfaceOptions, v: VertexInput) -> Varying {
         let left = highlight_fade(dot(view, forward), dot(view, frame.to_light), material.highlight_facing);
         highlight = vec3f(offset, left);
     }
+    var clip = frame.clip_from_world * vec4f(position, 1.0);
+    if options.layered {
+        clip.z = pulled_depth(clip.z, clip.w, material.layer_pull);
+    }
     return Varying(
-        frame.clip_from_world * vec4f(position, 1.0), position, world_direction(v, v.frame.x), tangent, v.uv, v.color,
+        clip, position, world_direction(v, v.frame.x), tangent, v.uv, v.color,
         face_light, bangs, highlight
+    );
+}
+
+// A world direction by the axes of the face: to the character's left, up, forward.
+fn in_face_frame(v: VertexInput, d: vec3f) -> vec3f {
+    return vec3f(
+        dot(d, world_rotated(v, character.face_left)),
+        dot(d, world_rotated(v, character.face_up)),
+        dot(d, world_rotated(v, character.face_forward)),
     );
 }
 
 // A back face is seen with its normal turned (glTF doubleSided).
 fn surface_input(in: Varying, front_facing: bool) -> SurfaceInput {
     let normal = select(-in.normal, in.normal, front_facing);
-    return SurfaceInput(in.world_position, normal, in.tangent, in.uv, in.color, in.face_light, in.bangs, in.highlight);
+    return SurfaceInput(
+        in.clip_position.xyz, in.world_position, normal, in.tangent, in.uv, in.color, in.face_light, in.bangs, in.highlight
+    );
 }

@@ -1,9 +1,12 @@
 // Exponential shadow test of the bangs (Annen et al. 2008), each tap clamped before they are summed: far taps cannot leak
 // into near ones, and percentage closer filtering is its lower bound.
 
-// Light that passes a caster at depth `d` to a receiver at depth `z`, both 0..1 over the range; `c` per unit of depth.
-fn esm_tap(d: f32, z: f32, c: f32, bias: f32) -> f32 {
-    return min(1.0, exp(min(0.0, c * (d - z + bias))));
+// Texels along a block of the nearest depths; `BLOCK` in `src/render/pass/bangs_near.rs`.
+const BANGS_BLOCK: i32 = 8;
+
+// Light that passes casters at depths `d` to a receiver at depth `z`, 0..1 over the range; `c` per unit of depth.
+fn esm_taps(d: vec4f, z: f32, c: f32, bias: f32) -> vec4f {
+    return exp(min(vec4f(0.0), c * (d - z + bias)));
 }
 
 // What lit colour is multiplied by where the share `lit` of light arrives. 1e-6: equal edges are a step.
@@ -12,7 +15,10 @@ fn bangs_factor(lit: f32, edges: vec2f, strength: f32, color: vec3f) -> vec3f {
     return mix(vec3f(1.0), color, strength * shadow);
 }
 
-// Weight of tap `i` of five along one axis: a box four texels wide at the fraction `f` of a texel.
+// Taps along one axis: a box three texels wide lies on four of them.
+const BANGS_TAPS: i32 = 4;
+
+// Weight of tap `i` along one axis at the fraction `f` of a texel.
 fn bangs_weight(i: i32, f: f32) -> f32 {
-    return select(select(1.0, 1.0 - f, i == 0), f, i == 4) * 0.25;
+    return select(select(1.0, 1.0 - f, i == 0), f, i == BANGS_TAPS - 1) / 3.0;
 }

@@ -12,3 +12,8 @@ fn highlight_offset(v: vec3f, l: vec3f, f: vec3f, u: vec3f, k_turn: f32, k_light
 fn highlight_fade(v_dot_f: f32, v_dot_l: f32, facing: f32) -> f32 {
     return smoothstep(-0.6, 0.3, v_dot_l) * smoothstep(facing, facing + 0.35, v_dot_f);
 }
+
+// What strands leave of a layer: all of it at a breakup of 0; with more, only where the layer is above the strand.
+fn highlight_broken(layer: f32, strand: f32, breakup: f32) -> f32 {
+    return saturate((layer - breakup * strand) / max(1.0 - breakup, 1e-3));
+}

@@ -2,7 +2,7 @@
 import package::bind::character::{bangs_from_character, character};
 import package::bind::options::surface_options;
 import package::bind::material::material;
-import package::bind::surface::{SurfaceInput, animated_uv, surface_texel};
+import package::bind::surface::{animated_uv, surface_texel, texel_input};
 import package::bind::vertex::VertexInput;
 
 override ALPHA_TEST: bool = false;
@@ -24,7 +24,7 @@ fn vs_main(v: VertexInput) -> BangsVarying {
 fn fs_main(in: BangsVarying) -> @location(0) vec4f {
     if ALPHA_TEST {
         let options = surface_options();
-        let input = SurfaceInput(vec3f(0.0), vec3f(0.0), vec4f(0.0), in.uv, in.color, vec3f(0.0), vec3f(0.0), vec3f(0.0));
+        let input = texel_input(in.uv, in.color);
         let texel = surface_texel(options, input, animated_uv(options, in.uv));
         if material.base_color.a * texel.a < material.alpha_cutoff {
             discard;

@@ -2,9 +2,9 @@
 import package::bind::character::character;
 import package::bind::frame::frame;
 import package::bind::options::surface_options;
-import package::bind::surface::shade_surface;
-import package::bind::varying::{Varying, surface_varying, surface_input};
-import package::bind::vertex::{VertexInput, world_rotated};
+import package::bind::surface::{CHANNEL_EYES_THROUGH, shade_surface};
+import package::bind::varying::{Varying, in_face_frame, surface_varying, surface_input};
+import package::bind::vertex::VertexInput;
 import package::lib::color::srgb_from_linear;
 import package::lib::eyes_through::{eyes_through_fade, pulled_depth};
 
@@ -18,7 +18,7 @@ struct ThroughVarying {
     @location(2) tangent: vec4f,
     @location(3) uv: vec4f,
     @location(4) color: vec4f,
-    @location(5) @interpolate(flat) face_light: vec3f,
+    @location(5) @interpolate(flat) face_light: vec4f,
     @location(6) bangs: vec3f,
     @location(7) @interpolate(flat) highlight: vec3f,
     @location(8) @interpolate(flat) opacity: f32,
@@ -29,8 +29,9 @@ fn vs_main(v: VertexInput) -> ThroughVarying {
     let s = surface_varying(surface_options(), v);
     var clip = s.clip_position;
     clip.z = pulled_depth(clip.z, clip.w, character.through_window);
-    let facing = dot(world_rotated(v, character.face_forward), normalize(frame.eye - s.world_position));
-    let opacity = character.through_opacity * eyes_through_fade(facing, character.through_fade);
+    let view = in_face_frame(v, normalize(frame.eye - s.world_position));
+    let opacity = character.through_opacity
+        * eyes_through_fade(view, character.through_fade_yaw, character.through_fade_pitch);
     return ThroughVarying(
         clip, s.world_position, s.normal, s.tangent, s.uv, s.color, s.face_light, s.bangs, s.highlight,
         opacity
@@ -43,7 +44,14 @@ fn fs_main(in: ThroughVarying, @builtin(front_facing) front_facing: bool) -> @lo
         in.clip_position, in.world_position, in.normal, in.tangent, in.uv, in.color, in.face_light, in.bangs,
         in.highlight
     );
-    var color = shade_surface(surface_options(), surface_input(surface, front_facing)).rgb;
+    let options = surface_options();
+    var color = shade_surface(options, surface_input(surface, front_facing)).rgb;
+    if options.channel == CHANNEL_EYES_THROUGH {
+        // Everything else is black: as bright as it is seen.
+        color = vec3f(1.0);
+    } else if options.channel != 0u {
+        discard;
+    }
     if ENCODE_SRGB {
         color = srgb_from_linear(color);
     }

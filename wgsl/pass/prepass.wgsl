@@ -1,7 +1,7 @@
 // View-space normal and part id, one sample a pixel, for effects and channels that read them.
 import package::bind::frame::frame;
 import package::bind::options::surface_options;
-import package::bind::surface::{SurfaceInput, animated_uv, surface_texel};
+import package::bind::surface::{animated_uv, surface_texel, texel_input};
 import package::bind::material::material;
 import package::bind::vertex::{VertexInput, world_direction, world_position};
 
@@ -30,16 +30,32 @@ fn vs_main(v: VertexInput) -> PrepassVarying {
     return PrepassVarying(frame.clip_from_world * vec4f(position, 1.0), normal, v.uv, v.color, v.part);
 }
 
+@vertex
+fn vs_depth(v: VertexInput) -> @builtin(position) vec4f {
+    return frame.clip_from_world * vec4f(world_position(v, v.position), 1.0);
+}
+
+fn cut(in: PrepassVarying) -> bool {
+    if !ALPHA_TEST {
+        return false;
+    }
+    let options = surface_options();
+    let texel = surface_texel(options, texel_input(in.uv, in.color), animated_uv(options, in.uv));
+    return material.base_color.a * texel.a < material.alpha_cutoff;
+}
+
 @fragment
 fn fs_main(in: PrepassVarying, @builtin(front_facing) front_facing: bool) -> PrepassOutput {
-    if ALPHA_TEST {
-        let options = surface_options();
-        let input = SurfaceInput(vec3f(0.0), in.normal, vec4f(0.0), in.uv, in.color, vec3f(0.0), vec3f(0.0), vec3f(0.0));
-        let texel = surface_texel(options, input, animated_uv(options, in.uv));
-        if material.base_color.a * texel.a < material.alpha_cutoff {
-            discard;
-        }
+    if cut(in) {
+        discard;
     }
     let normal = normalize(select(-in.normal, in.normal, front_facing));
     return PrepassOutput(vec4f(normal * 0.5 + 0.5, 1.0), in.part + 1u);
+}
+
+@fragment
+fn fs_depth(in: PrepassVarying) {
+    if cut(in) {
+        discard;
+    }
 }

@@ -4,16 +4,20 @@ use std::collections::HashMap;
 
 use glam::{Mat4, Vec3, Vec4};
 
-use super::{SurfaceFlags, vertex_buffers};
+use super::{
+    SurfaceFlags,
+    bangs_near::{self, BangsNearInputs, BangsNearPass},
+    vertex_buffers,
+};
 use crate::{
     Gpu,
     material::{AlphaMode, Material},
-    render::{Layouts, draw_list, shaders, targets, upload::GpuScene},
+    render::{Layouts, draw_list::{self, Draw}, shaders, targets, upload::GpuScene},
     scene::Bangs,
 };
 
 /// Depth of the nearest hair, 0..1 over the range.
-const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R32Float;
+pub(crate) const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R32Float;
 const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
 /// Pipelines by what a material's cut needs.
@@ -30,23 +34,53 @@ pub(crate) struct BangsMap {
     /// Middle and half width of the camera's picture at rest, character space, metres.
     pub middle: Vec3,
     pub half: f32,
+    /// The map as shaders read it: front hair, then lids and lashes where something receives their shadow.
     pub view: wgpu::TextureView,
+    /// Nearest depths of its blocks.
+    pub near: wgpu::TextureView,
+    layers: Vec<Layer>,
     depth: wgpu::TextureView,
+}
+
+/// One layer of the map as passes draw it.
+#[derive(Debug)]
+struct Layer {
+    map: wgpu::TextureView,
+    near: wgpu::TextureView,
+    near_input: wgpu::BindGroup,
 }
 
 /// What the pass reads and writes.
 pub(crate) struct BangsShadowInputs<'a> {
     pub scene: &'a GpuScene,
     pub frame: &'a wgpu::BindGroup,
+    pub reduce: &'a BangsNearPass,
     pub map: &'a BangsMap,
 }
 
 impl BangsMap {
-    /// A map for a head of this place and size. A texel is a quarter of the soft edge; the shader's box is four wide.
-    pub fn new(gpu: &Gpu, bangs: Bangs, middle: Vec3, half: f32) -> Self {
-        let texel = bangs.soft_width_m.clamp(0.0005, 0.05) / 4.0;
+    /// A map for a head of this place and size. A texel is a third of the soft edge; the shader's box is three wide.
+    pub fn new(gpu: &Gpu, reduce: &BangsNearPass, bangs: Bangs, middle: Vec3, half: f32, lids: bool) -> Self {
+        let texel = bangs.soft_width_m.clamp(0.0005, 0.05) / 3.0;
         let side = ((2.0 * half / texel).ceil() as u32).clamp(32, 1024);
-        Self { bangs, middle, half, view: map_texture(gpu, side), depth: depth_texture(gpu, side) }
+        let count = if lids { 2 } else { 1 };
+        let view = map_texture(gpu, side, count);
+        let near = map_texture(gpu, side.div_ceil(bangs_near::BLOCK), count);
+        let layer = |of: &wgpu::TextureView, base_array_layer| {
+            of.texture().create_view(&wgpu::TextureViewDescriptor {
+                dimension: Some(wgpu::TextureViewDimension::D2),
+                base_array_layer,
+                array_layer_count: Some(1),
+                ..Default::default()
+            })
+        };
+        let layers = (0..count)
+            .map(|i| {
+                let map = layer(&view, i);
+                Layer { near_input: reduce.group(gpu, &map), map, near: layer(&near, i) }
+            })
+            .collect();
+        Self { bangs, middle, half, layers, near, view, depth: depth_texture(gpu, side) }
     }
 
     /// Rows of the map from character space. `head` moves the head from its rest; `to_light` is in character space.
@@ -76,31 +110,35 @@ impl BangsMap {
 }
 
 /// A map without hair, for characters that have none; [`BangsMap`] makes those that are drawn.
-pub(crate) fn map_texture(gpu: &Gpu, side: u32) -> wgpu::TextureView {
-    texture(gpu, "bangs", side, FORMAT, wgpu::TextureUsages::TEXTURE_BINDING)
+pub(crate) fn map_texture(gpu: &Gpu, side: u32, layers: u32) -> wgpu::TextureView {
+    let texture = texture(gpu, "bangs", [side, layers], FORMAT, wgpu::TextureUsages::TEXTURE_BINDING);
+    texture.create_view(&wgpu::TextureViewDescriptor {
+        dimension: Some(wgpu::TextureViewDimension::D2Array),
+        ..Default::default()
+    })
 }
 
 fn depth_texture(gpu: &Gpu, side: u32) -> wgpu::TextureView {
-    texture(gpu, "bangs depth", side, DEPTH, wgpu::TextureUsages::empty())
+    targets::view(&texture(gpu, "bangs depth", [side, 1], DEPTH, wgpu::TextureUsages::empty()))
 }
 
 fn texture(
     gpu: &Gpu,
     label: &str,
-    side: u32,
+    [side, layers]: [u32; 2],
     format: wgpu::TextureFormat,
     more: wgpu::TextureUsages,
-) -> wgpu::TextureView {
-    targets::view(&gpu.device.create_texture(&wgpu::TextureDescriptor {
+) -> wgpu::Texture {
+    gpu.device.create_texture(&wgpu::TextureDescriptor {
         label: Some(label),
-        size: wgpu::Extent3d { width: side, height: side, depth_or_array_layers: 1 },
+        size: wgpu::Extent3d { width: side, height: side, depth_or_array_layers: layers },
         mip_level_count: 1,
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
         format,
         usage: wgpu::TextureUsages::RENDER_ATTACHMENT | more,
         view_formats: &[],
-    }))
+    })
 }
 
 impl BangsShadowPass {
@@ -155,12 +193,25 @@ impl BangsShadowPass {
         self.pipelines.entry(flags).or_insert_with(make).clone()
     }
 
-    /// Draws the front hair of one character.
+    /// Draws the front hair of one character, and her lids and lashes.
     pub fn encode(&self, encoder: &mut wgpu::CommandEncoder, inputs: &BangsShadowInputs<'_>) {
+        let casters: [fn(&Draw) -> Option<&wgpu::RenderPipeline>; 2] = [|d| d.bangs.as_ref(), |d| d.lids.as_ref()];
+        for (layer, caster) in inputs.map.layers.iter().zip(casters) {
+            Self::encode_layer(encoder, inputs, &layer.map, caster);
+            inputs.reduce.encode(encoder, &BangsNearInputs { map: &layer.near_input, near: &layer.near });
+        }
+    }
+
+    fn encode_layer(
+        encoder: &mut wgpu::CommandEncoder,
+        inputs: &BangsShadowInputs<'_>,
+        layer: &wgpu::TextureView,
+        caster: fn(&Draw) -> Option<&wgpu::RenderPipeline>,
+    ) {
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("bangs shadow"),
             color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                view: &inputs.map.view,
+                view: layer,
                 depth_slice: None,
                 resolve_target: None,
                 // No hair: behind everything.
@@ -177,7 +228,7 @@ impl BangsShadowPass {
         let character = &inputs.scene.character_group_without_map;
         draw_list::bind_scene(&mut pass, inputs.scene, inputs.frame, character);
         for draw in &inputs.scene.draws {
-            if let Some(pipeline) = &draw.bangs {
+            if let Some(pipeline) = caster(draw) {
                 pass.set_pipeline(pipeline);
                 pass.set_bind_group(2, &inputs.scene.material_groups[draw.material], &[]);
                 pass.draw_indexed(draw.indices.clone(), 0, 0..1);

@@ -60,13 +60,9 @@ impl EyesThroughPass {
     /// Draws every eye and brow once more; each sample takes the foremost of them.
     pub fn encode(&self, pass: &mut wgpu::RenderPass<'_>, inputs: &EyesThroughInputs<'_>) {
         let scene = inputs.scene;
-        if scene.through_order.is_empty() {
-            return;
-        }
-        pass.set_stencil_reference(Mark::Through.reference());
         for draw in scene.through_order.iter().map(|&i| &scene.draws[i]) {
             if let Some(pipeline) = &draw.through {
-                draw_list::record(pass, scene, draw, pipeline);
+                draw_list::record_marked(pass, scene, draw, pipeline, Mark::Through);
             }
         }
     }

@@ -1,5 +1,6 @@
 //! Passes: one file each, with the shader of the same stem in `wgsl/pass/`; what they share stands here.
 
+pub(crate) mod bangs_near;
 pub(crate) mod bangs_shadow;
 pub(crate) mod deform;
 pub(crate) mod eyes_through;
@@ -14,6 +15,7 @@ use crate::{
     Gpu,
     material::{AlphaMode, Material, Shading, TextureRef, UvTransform},
     scene::{ColorTarget, Scene},
+    sdf::FaceMap,
 };
 
 /// What expressions change of a material: pipelines must keep it even where it is off at rest.
@@ -71,25 +73,33 @@ pub(crate) enum Mark {
 
 const EYES_BIT: u32 = 0x80;
 const HAIR_BIT: u32 = 0x40;
+const NUMBER_BITS: u32 = 0x3f;
 
 impl Mark {
-    /// Reference value of the stencil.
-    pub fn reference(self) -> u32 {
+    /// How many characters have a number of their own.
+    pub const NUMBERS: u32 = NUMBER_BITS + 1;
+
+    /// Whether it belongs to one character: hair is marked with her number, and shows her eyes alone.
+    pub fn is_numbered(self) -> bool {
+        matches!(self, Self::Hair | Self::Through)
+    }
+
+    /// Reference value of the stencil for the character of this number.
+    pub fn reference(self, number: u32) -> u32 {
         match self {
             Self::None => 0,
             Self::Eyes => EYES_BIT,
-            Self::Hair => HAIR_BIT,
-            Self::Through => EYES_BIT | HAIR_BIT,
+            Self::Hair => HAIR_BIT | number,
+            Self::Through => EYES_BIT | HAIR_BIT | number,
         }
     }
 
     fn stencil(self) -> wgpu::StencilState {
         let (compare, pass_op, read_mask, write_mask) = match self {
             Self::None => return wgpu::StencilState::default(),
-            Self::Eyes | Self::Hair => {
-                (wgpu::CompareFunction::Always, wgpu::StencilOperation::Replace, 0, self.reference())
-            }
-            Self::Through => (wgpu::CompareFunction::Equal, wgpu::StencilOperation::Zero, self.reference(), HAIR_BIT),
+            Self::Eyes => (wgpu::CompareFunction::Always, wgpu::StencilOperation::Replace, 0, EYES_BIT),
+            Self::Hair => (wgpu::CompareFunction::Always, wgpu::StencilOperation::Replace, 0, HAIR_BIT | NUMBER_BITS),
+            Self::Through => (wgpu::CompareFunction::Equal, wgpu::StencilOperation::Zero, 0xff, HAIR_BIT),
         };
         let face = wgpu::StencilFaceState {
             compare,
@@ -121,13 +131,26 @@ pub(crate) struct SurfaceFlags {
     pub alpha_mask: bool,
     pub alpha_coverage: bool,
     pub face_shadow: bool,
+    pub face_stack: bool,
+    pub face_back: bool,
+    pub face_masks: bool,
+    pub transition: bool,
+    pub face_paint: bool,
     pub bangs_shadow: bool,
+    pub lid_shadow: bool,
     pub highlight: bool,
+    pub highlight_second: bool,
+    pub highlight_apart: bool,
+    pub highlight_breakup: bool,
+    pub layered: bool,
+    pub depth_rim: bool,
+    /// [`Channel::shader_code`](super::Channel::shader_code).
+    pub channel: u32,
 }
 
 impl SurfaceFlags {
-    /// What a material uses, at rest or under any expression.
-    pub fn of(material: &Material, driven: &Driven, has_vertex_colors: bool) -> Self {
+    /// What a material uses, at rest or under any expression; `face_maps` are those of its scene.
+    pub fn of(material: &Material, driven: &Driven, has_vertex_colors: bool, face_maps: &[FaceMap]) -> Self {
         let toon = match &material.shading {
             Shading::Toon(toon) => Some(toon),
             Shading::Unlit => None,
@@ -145,7 +168,8 @@ impl SurfaceFlags {
         let outline_mask = material.outline.and_then(|o| o.width_mask);
         let uv_animation = material.uv_animation.is_active();
         let animation_mask = material.uv_animation.mask.filter(|_| uv_animation);
-        let face_shadow = material.face_shadow.filter(|_| toon.is_some());
+        let face_map = material.face_shadow.filter(|_| toon.is_some()).and_then(|f| face_maps.get(f.map));
+        let face_paint = material.face_paint.filter(|_| toon.is_some());
         let highlight = material.highlight.filter(|_| toon.is_some());
         let used = [
             material.base.texture,
@@ -156,8 +180,8 @@ impl SurfaceFlags {
             rim_mask,
             outline_mask,
             animation_mask,
-            face_shadow.map(|f| f.map),
             highlight.map(|h| h.map),
+            face_paint.map(|p| p.map),
         ];
         let moved = |t: &TextureRef| t.uv_set != 0 || t.transform != UvTransform::default();
         Self {
@@ -177,9 +201,21 @@ impl SurfaceFlags {
             vertex_color: has_vertex_colors,
             alpha_mask: material.alpha.mode == AlphaMode::Mask,
             alpha_coverage: false,
-            face_shadow: face_shadow.is_some(),
-            highlight: highlight.is_some(),
+            face_shadow: face_map.is_some(),
+            face_stack: face_map.is_some_and(|m| m.pitches_rad.len() > 1),
+            face_back: face_map.is_some_and(|m| !m.back.is_empty()),
+            face_masks: face_map.is_some_and(|m| !m.masks.is_empty()),
+            transition: toon.is_some() && material.transition.is_some_and(|t| t.strength > 0.0),
+            face_paint: face_paint.is_some(),
             bangs_shadow: toon.is_some() && material.bangs_shadow.is_some(),
+            lid_shadow: toon.is_some() && material.bangs_shadow.is_some_and(|b| b.lids),
+            highlight: highlight.is_some(),
+            highlight_second: highlight.is_some_and(|h| h.second_strength > 0.0),
+            highlight_apart: highlight.is_some_and(|h| h.second_strength > 0.0 && h.second_motion != 1.0),
+            highlight_breakup: highlight.is_some_and(|h| h.breakup > 0.0),
+            layered: material.layer.is_some(),
+            depth_rim: toon.is_some() && material.depth_rim.is_some_and(|r| r.strength > 0.0),
+            channel: 0,
         }
     }
 
@@ -203,11 +239,24 @@ impl SurfaceFlags {
             ("ALPHA_MASK", self.alpha_mask),
             ("ALPHA_COVERAGE", self.alpha_coverage),
             ("FACE_SHADOW", self.face_shadow),
+            ("FACE_STACK", self.face_stack),
+            ("FACE_BACK", self.face_back),
+            ("FACE_MASKS", self.face_masks),
+            ("TRANSITION", self.transition),
+            ("FACE_PAINT", self.face_paint),
             ("BANGS_SHADOW", self.bangs_shadow),
+            ("LID_SHADOW", self.lid_shadow),
             ("HIGHLIGHT", self.highlight),
+            ("HIGHLIGHT_SECOND", self.highlight_second),
+            ("HIGHLIGHT_APART", self.highlight_apart),
+            ("HIGHLIGHT_BREAKUP", self.highlight_breakup),
+            ("LAYERED", self.layered),
+            ("DEPTH_RIM", self.depth_rim),
         ]
         .map(|(name, on)| (name, f64::from(u8::from(on))))
-        .to_vec()
+        .into_iter()
+        .chain([("CHANNEL", f64::from(self.channel))])
+        .collect()
     }
 }
 

@@ -64,13 +64,12 @@ impl OpaquePass {
     /// Draws all opaque surfaces, then all masked ones (the order of upload). Where eyes are to be seen through hair, they
     /// follow what is neither, and hair comes last.
     pub fn encode(&self, pass: &mut wgpu::RenderPass<'_>, inputs: &OpaqueInputs<'_>) {
-        let mut mark = Mark::None;
         for draw in inputs.scene.draws.iter().filter(|d| !d.blend) {
-            if draw.mark != mark {
-                mark = draw.mark;
-                pass.set_stencil_reference(mark.reference());
+            if draw.mark == Mark::None {
+                draw_list::record(pass, inputs.scene, draw, &draw.surface);
+            } else {
+                draw_list::record_marked(pass, inputs.scene, draw, &draw.surface, draw.mark);
             }
-            draw_list::record(pass, inputs.scene, draw, &draw.surface);
         }
     }
 }

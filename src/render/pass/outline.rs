@@ -60,7 +60,8 @@ impl OutlinePass {
         let colored = outline.color != [0.0; 3] || driven.colors.contains(&ColorTarget::OutlineColor);
         let shaded = outline.lighting_mix > 0.0 && colored || material.alpha.mode != AlphaMode::Opaque;
         let mut key = OutlineKey {
-            flags,
+            // A line never glows.
+            flags: SurfaceFlags { depth_rim: false, ..flags },
             screen_width,
             width_mask: outline.width_mask.is_some(),
             shaded,

@@ -14,11 +14,11 @@ pub(crate) const NORMAL_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8
 /// Format of the part index + 1.
 pub(crate) const PART_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
 
-/// Pipelines by culling and cut-out.
+/// Pipelines by cut-out, culling and targets.
 #[derive(Debug)]
 pub(crate) struct PrepassPass {
     module: wgpu::ShaderModule,
-    pipelines: HashMap<(SurfaceFlags, bool, bool), wgpu::RenderPipeline>,
+    pipelines: HashMap<(SurfaceFlags, bool, bool, bool), wgpu::RenderPipeline>,
 }
 
 /// What the pass reads and writes.
@@ -33,13 +33,14 @@ impl PrepassPass {
         Self { module: shaders::module(&gpu.device, "prepass"), pipelines: HashMap::new() }
     }
 
-    /// The pipeline for a material, made on first use.
+    /// The pipeline for a material, made on first use; `depth_only` leaves normal and part out.
     pub fn pipeline(
         &mut self,
         gpu: &Gpu,
         layouts: &Layouts,
         flags: SurfaceFlags,
         material: &Material,
+        depth_only: bool,
     ) -> wgpu::RenderPipeline {
         let alpha_test = material.alpha.mode != AlphaMode::Opaque;
         // Without a cut-out nothing is sampled: one pipeline serves all.
@@ -48,29 +49,59 @@ impl PrepassPass {
             let mut constants = flags.constants();
             constants.push(("ALPHA_TEST", f64::from(u8::from(alpha_test))));
             let options = || wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
+            let (entry_point, targets) = if depth_only {
+                ("fs_depth", &[] as &[Option<wgpu::ColorTargetState>])
+            } else {
+                ("fs_main", &[Some(NORMAL_FORMAT.into()), Some(PART_FORMAT.into())] as _)
+            };
             gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
                 label: Some("prepass"),
                 layout: Some(&layouts.surface),
                 vertex: wgpu::VertexState {
                     module: &self.module,
-                    entry_point: Some("vs_main"),
+                    entry_point: Some(if depth_only && !alpha_test { "vs_depth" } else { "vs_main" }),
                     compilation_options: options(),
                     buffers: &vertex_buffers(),
                 },
                 primitive: wgpu::PrimitiveState { cull_mode: surface_cull(material), ..Default::default() },
                 depth_stencil: Some(depth_state(true)),
                 multisample: wgpu::MultisampleState::default(),
-                fragment: Some(wgpu::FragmentState {
+                fragment: (alpha_test || !depth_only).then(|| wgpu::FragmentState {
                     module: &self.module,
-                    entry_point: Some("fs_main"),
+                    entry_point: Some(entry_point),
                     compilation_options: options(),
-                    targets: &[Some(NORMAL_FORMAT.into()), Some(PART_FORMAT.into())],
+                    targets,
                 }),
                 multiview_mask: None,
                 cache: None,
             })
         };
-        self.pipelines.entry((flags, alpha_test, material.double_sided)).or_insert_with(make).clone()
+        self.pipelines.entry((flags, alpha_test, material.double_sided, depth_only)).or_insert_with(make).clone()
+    }
+
+    /// Draws the depth of every surface that is not seen through.
+    pub fn encode_depth(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        scene: &GpuScene,
+        frame: &wgpu::BindGroup,
+        depth: &wgpu::TextureView,
+    ) {
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("depth"),
+            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                view: depth,
+                depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store }),
+                stencil_ops: None,
+            }),
+            ..Default::default()
+        });
+        draw_list::bind_scene(&mut pass, scene, frame, &scene.character_group);
+        for draw in &scene.draws {
+            if let Some(pipeline) = &draw.depth {
+                draw_list::record(&mut pass, scene, draw, pipeline);
+            }
+        }
     }
 
     /// Draws every surface.

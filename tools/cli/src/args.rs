@@ -1,5 +1,7 @@
 //! Readers of single arguments: each states its range in the message.
 
+use std::path::PathBuf;
+
 use clap::ValueEnum;
 use hikage::Background;
 use hikage::color::Srgb;
@@ -35,14 +37,24 @@ impl From<ViewName> for Framing {
 }
 
 /// `--look`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum, serde::Serialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum LookName {
     /// As the file describes the materials.
-    #[default]
     Plain,
-    /// The face of a shipped anime game.
+    /// The head of a shipped anime game.
     Anime,
+    /// A look file.
+    File(PathBuf),
+}
+
+/// `plain`, `anime` or a file.
+pub(crate) fn look(text: &str) -> Result<LookName, String> {
+    match text {
+        "plain" => Ok(LookName::Plain),
+        "anime" => Ok(LookName::Anime),
+        file if file.ends_with(".toml") => Ok(LookName::File(file.into())),
+        _ => Err("expected plain, anime or a look file (NAME.look.toml)".into()),
+    }
 }
 
 /// `WxH`, pixels.

@@ -43,9 +43,10 @@ pub(crate) struct Args {
         hide_possible_values = true
     )]
     view: ViewName,
-    /// What is made of the model: plain as in the file, or an anime face.
-    #[arg(long, value_enum, value_name = "plain|anime", default_value_t = LookName::Plain, hide_possible_values = true)]
-    look: LookName,
+    /// What is made of the model: plain as in the file, an anime head, or what a look file says [default: the look file
+    /// beside the model (girl.look.toml beside girl.vrm), else plain].
+    #[arg(long, value_name = "plain|anime|FILE.look.toml", value_parser = args::look)]
+    look: Option<LookName>,
     /// Adapter, by a part of its name (`hikage adapters`).
     #[arg(long, value_name = "NAME")]
     adapter: Option<String>,
@@ -58,7 +59,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let spinner = Spinner::new();
     spinner.step("loading the model");
     let mut scene = setup::load(args.model.as_deref())?;
-    setup::look(args.look, args.model.as_deref())?.apply(&mut scene);
+    setup::apply_look(args.look.as_ref(), args.model.as_deref(), &mut scene)?;
     spinner.step("opening the adapter");
     let gpu = setup::gpu(args.adapter.as_deref())?;
     spinner.step(format!("measuring {} frames", args.frames));

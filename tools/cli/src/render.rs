@@ -65,9 +65,10 @@ pub(crate) struct Args {
     /// Pose of the humanoid [default: rest; relaxed for the built-in character].
     #[arg(long, value_name = "rest|relaxed|bend|offer", value_parser = args::stance)]
     pose: Option<Stance>,
-    /// What is made of the model: plain as in the file, or an anime face.
-    #[arg(long, value_enum, value_name = "plain|anime", default_value_t = LookName::Plain, hide_possible_values = true)]
-    look: LookName,
+    /// What is made of the model: plain as in the file, an anime head, or what a look file says [default: the look file
+    /// beside the model (girl.look.toml beside girl.vrm), else plain].
+    #[arg(long, value_name = "plain|anime|FILE.look.toml", value_parser = args::look)]
+    look: Option<LookName>,
     /// File with camera, light and background; see below.
     #[arg(long, value_name = "SHOT.json")]
     shot: Option<PathBuf>,
@@ -75,13 +76,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "SECONDS", default_value = "0", value_parser = args::time)]
     time: f32,
     /// What is shown of each pixel; part-id is 16 bits in red (low) and green (high), 0 for background.
-    #[arg(
-        long,
-        value_enum,
-        value_name = "final|normal|depth|part-id",
-        default_value_t = ChannelName::Final,
-        hide_possible_values = true
-    )]
+    #[arg(long, value_enum, value_name = "CHANNEL", default_value_t = ChannelName::Final)]
     channel: ChannelName,
     /// Adapter, by a part of its name (`hikage adapters`).
     #[arg(long, value_name = "NAME")]
@@ -102,6 +97,22 @@ enum ChannelName {
     Depth,
     /// Number of the part, 16 bits in red (low) and green (high); 0 is background.
     PartId,
+    /// Share of light by the face's threshold map.
+    FaceShadow,
+    /// Tint of light about to turn into shade.
+    Transition,
+    /// Blush and lines.
+    FacePaint,
+    /// Painted highlights.
+    Highlight,
+    /// Light that bangs, lids and lashes let through.
+    BangsShadow,
+    /// Cards of a stack.
+    Layer,
+    /// Rim by depth.
+    DepthRim,
+    /// Eyes and brows seen through hair.
+    EyesThrough,
 }
 
 impl From<ChannelName> for Channel {
@@ -111,6 +122,14 @@ impl From<ChannelName> for Channel {
             ChannelName::Normal => Self::Normal,
             ChannelName::Depth => Self::Depth,
             ChannelName::PartId => Self::PartId,
+            ChannelName::FaceShadow => Self::FaceShadow,
+            ChannelName::Transition => Self::Transition,
+            ChannelName::FacePaint => Self::FacePaint,
+            ChannelName::Highlight => Self::Highlight,
+            ChannelName::BangsShadow => Self::BangsShadow,
+            ChannelName::Layer => Self::Layer,
+            ChannelName::DepthRim => Self::DepthRim,
+            ChannelName::EyesThrough => Self::EyesThrough,
         }
     }
 }
@@ -178,7 +197,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     spinner.step("loading the model");
     let mut scene = timed(&mut ms.load, || setup::load(args.model.as_deref()))?;
     show_warnings(&scene.warnings);
-    setup::look(args.look, args.model.as_deref())?.apply(&mut scene);
+    setup::apply_look(args.look.as_ref(), args.model.as_deref(), &mut scene)?;
     let at_ease = if args.model.is_none() {
         Stance::Relaxed
     } else {

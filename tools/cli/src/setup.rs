@@ -6,8 +6,8 @@ use std::path::Path;
 
 use hikage::motion::{Pose, Stance};
 use hikage::scene::Scene;
-use hikage::sdf::{Key, Mask, bake};
-use hikage::{Gpu, Look};
+use hikage::sdf::{Key, Mask, ThresholdMap, bake};
+use hikage::{Gpu, Look, LookFile};
 use hikage_character::head::sdf;
 
 use crate::args::LookName;
@@ -53,17 +53,32 @@ pub(crate) fn load(model: Option<&Path>) -> Result<Scene, Failure> {
 /// Name of the built-in character's file.
 pub(crate) const BUILT_IN: &str = "hikage.vrm";
 
-/// The look of this name, for a model or the built-in character, whose face has painted keys.
-pub(crate) fn look(name: LookName, model: Option<&Path>) -> Result<Look, Failure> {
-    match (name, model) {
-        (LookName::Plain, _) => Ok(Look::Plain),
-        (LookName::Anime, Some(_)) => Ok(Look::Anime { face: None }),
-        (LookName::Anime, None) => {
-            let key = |(angle_rad, side, lit)| Key { angle_rad, mask: Mask { width: side, height: side, lit } };
-            let keys: Vec<Key> = sdf::keys().into_iter().map(key).collect();
-            Ok(Look::Anime { face: Some(bake(&keys)?) })
+/// Gives a model its look: the named one, else that of the look file beside it, else none.
+pub(crate) fn apply_look(name: Option<&LookName>, model: Option<&Path>, scene: &mut Scene) -> Result<(), Failure> {
+    let sidecar = model.map(LookFile::beside).filter(|file| file.is_file());
+    let file = match name {
+        Some(LookName::Plain) => return Ok(()),
+        Some(LookName::Anime) => {
+            Look::Anime { face: painted(model)? }.apply(scene);
+            return Ok(());
         }
+        Some(LookName::File(file)) => file.clone(),
+        None => match sidecar {
+            Some(file) => file,
+            None => return Ok(()),
+        },
+    };
+    Ok(LookFile::read(file)?.apply(scene, painted(model)?.as_ref())?)
+}
+
+/// Thresholds of the face of the built-in character, which has painted keys.
+fn painted(model: Option<&Path>) -> Result<Option<ThresholdMap>, Failure> {
+    if model.is_some() {
+        return Ok(None);
     }
+    let key = |(angle_rad, side, lit)| Key { angle_rad, mask: Mask { width: side, height: side, lit } };
+    let keys: Vec<Key> = sdf::keys().into_iter().map(key).collect();
+    Ok(Some(bake(&keys)?))
 }
 
 /// The model in a stance with these expressions.

@@ -8,7 +8,7 @@ use hikage::scene::{Framing, Image, Scene};
 use hikage::{Background, Output, Renderer, View, color::Srgb};
 use noto_sans_mono_bitmap::{FontWeight, RasterHeight, get_raster};
 
-use crate::args::LookName;
+use crate::args::{self, LookName};
 use crate::failure::Failure;
 use crate::render::png_path;
 use crate::spinner::Spinner;
@@ -22,9 +22,10 @@ pub(crate) struct Args {
     /// Picture to write; its folder must exist.
     #[arg(short, long, value_name = "OUT.png", value_parser = png_path)]
     output: PathBuf,
-    /// What is made of the model: plain as in the file, or an anime face.
-    #[arg(long, value_enum, value_name = "plain|anime", default_value_t = LookName::Plain, hide_possible_values = true)]
-    look: LookName,
+    /// What is made of the model: plain as in the file, an anime head, or what a look file says [default: the look file
+    /// beside the model (girl.look.toml beside girl.vrm), else plain].
+    #[arg(long, value_name = "plain|anime|FILE.look.toml", value_parser = args::look)]
+    look: Option<LookName>,
     /// Width of one panel, pixels.
     #[arg(long, value_name = "PIXELS", default_value_t = 384, value_parser = clap::value_parser!(u32).range(64..=1024))]
     panel: u32,
@@ -96,7 +97,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let spinner = Spinner::new();
     spinner.step("loading the model");
     let mut scene = setup::load(args.model.as_deref())?;
-    setup::look(args.look, args.model.as_deref())?.apply(&mut scene);
+    setup::apply_look(args.look.as_ref(), args.model.as_deref(), &mut scene)?;
     let rows = rows(&scene);
     spinner.step("making pipelines");
     let gpu = setup::gpu(args.adapter.as_deref())?;

@@ -60,8 +60,8 @@ pub(super) fn shade() -> Picture {
     paint([0xaea6d4, 0xc9c2e4, 0xb6b0de, 0x8b8ecf], 0x7f75b2, 0.3)
 }
 
-/// The band of light round the head, white on black: a drawn band, jagged below as brushes leave it, and a thin broken line
-/// under it. Every lock crosses the same height of the head where v is 0.3; the band stands a little lower, because view
+/// The band of light round the head. Red: a drawn band, jagged below as brushes leave it. Green: a thin broken line under
+/// it, with a breath of light round it. Blue: strands. Every lock crosses the same height of the head where v is 0.3; the band stands a little lower, because view
 /// and light from the front move it up.
 pub(super) fn highlight() -> Picture {
     const MIDDLE: f32 = BAND_V + 0.07;
@@ -74,8 +74,10 @@ pub(super) fn highlight() -> Picture {
         let bottom = smoothstep(MIDDLE + 0.014 + jag, MIDDLE + 0.008 + jag, v);
         let line = smoothstep(0.005, 0.003, (v - MIDDLE - 0.034 - jag * 0.7).abs());
         let broken = smoothstep(-0.55, -0.25, strands(uv, 96.0, 7));
-        let value = (top * bottom).max(line * smoothstep(-0.1, 0.2, strands(uv, 60.0, 9))) * broken;
-        [value, value, value, 1.0]
+        let below = line * smoothstep(-0.1, 0.2, strands(uv, 60.0, 9));
+        let glow = 0.35 * smoothstep(0.05, 0.0, (v - MIDDLE - 0.034).abs());
+        let strand = strands(uv, 160.0, 10) * 0.5 + 0.5;
+        [top * bottom * broken, below.max(glow) * broken, strand, 1.0]
     })
 }
 

@@ -12,6 +12,7 @@ pub(super) fn add(model: &mut Model) {
         texture("face", paint::face as fn() -> _),
         texture("face_outline", paint::outline_mask),
         texture("face_highlight", paint::highlight),
+        texture("face_paint", paint::face_paint),
         texture("face_part_id", paint::part_id),
         texture("eye_iris", paint::iris),
         texture("eye_white", paint::eye_white),
@@ -29,7 +30,11 @@ pub(super) fn add(model: &mut Model) {
             outline: 0.0009,
             outline_color: srgb(0x8c4a44),
             outline_mask: Some("face_outline"),
-            extras: BTreeMap::from([("noseLipHighlight", "face_highlight"), ("partId", "face_part_id")]),
+            extras: BTreeMap::from([
+                ("noseLipHighlight", "face_highlight"),
+                ("facePaint", "face_paint"),
+                ("partId", "face_part_id"),
+            ]),
             ..Material::default()
         },
         Material {

@@ -142,6 +142,24 @@ pub(super) fn highlight() -> Picture {
     c.finish()
 }
 
+/// What looks draw over the face. Red: blush. Green: strokes that show in shade. Blue: the line of the nose in profile.
+pub(super) fn face_paint() -> Picture {
+    let mut c = Canvas::new(1024, 1024, Some(0x000000));
+    for side in [-1.0, 1.0] {
+        c.glow(at(side * 0.043, 1.3755), radii(0.02, 0.0105), 0xff0000, 0.4);
+        // Strokes under the eye, slanting outwards as a pen is held.
+        for i in 0..5 {
+            let x = side * (0.033 + 0.0042 * i as f32);
+            let line = polyline(&[at(x + side * 0.0012, 1.3805), at(x - side * 0.0014, 1.3745)], false);
+            c.stroke(&line, 0x00ff00, 0.75, 0.0006 / UV_METRES);
+        }
+        // From between the eyes down to the tip.
+        let ridge = [at(side * 0.0042, 1.4), at(side * 0.0031, 1.39), at(side * 0.0026, 1.381), at(side * 0.003, 1.3745)];
+        c.stroke(&curve(&ridge, false), 0x0000ff, 0.9, 0.0008 / UV_METRES);
+    }
+    c.finish()
+}
+
 /// Numbers of the parts of the face in the red channel: 1 skin, 2 lips, 3 ears.
 pub(super) fn part_id() -> Picture {
     let ear = |side: f32| (ellipse(Vec2::new(0.5 + side * 0.36, 0.9), Vec2::new(0.05, 0.08)), 3);

@@ -1,0 +1,151 @@
+//! The anime look: which sections each role gets.
+
+use std::collections::BTreeSet;
+
+use super::hair_band;
+use crate::material::{
+    AlphaMode, BangsShadow, DepthRim, FacePaint, FaceShadow, Highlight, Layer, Material, Outline, OutlineWidth, Shading,
+    Transition,
+};
+use crate::scene::{Bangs, EyesThrough, Role, Scene};
+use crate::sdf::{FaceMap, ThresholdMap, face_map};
+
+/// Materials that get a face's shadow: characters have one to three, and a file of thousands must not fill the memory.
+const MOST_FACES: usize = 16;
+
+pub(super) fn apply(scene: &mut Scene, painted: Option<&ThresholdMap>) {
+    scene.bangs = Some(Bangs::default());
+    scene.eyes_through = Some(EyesThrough::default());
+    outlines(scene);
+    hair(scene);
+    faces(scene, painted);
+    eyes(scene);
+    for material in materials_of(scene, Role::Skin) {
+        scene.materials[material].transition = Some(Transition::default());
+    }
+    let shadow = BangsShadow { color: [0.78, 0.5, 0.52], ..BangsShadow::default() };
+    for material in materials_of(scene, Role::Mouth) {
+        scene.materials[material].bangs_shadow = Some(shadow);
+    }
+}
+
+/// Materials that a part of this role has.
+pub(super) fn materials_of(scene: &Scene, role: Role) -> BTreeSet<usize> {
+    let parts = scene.meshes.iter().flat_map(|m| &m.primitives);
+    parts.filter(|p| p.role == role).map(|p| p.material).filter(|m| *m < scene.materials.len()).collect()
+}
+
+/// Lines round a character whose file knows none, in a dark tone of what they surround.
+fn outlines(scene: &mut Scene) {
+    if scene.materials.iter().any(|m| m.outline.is_some()) {
+        return;
+    }
+    let drawn: BTreeSet<usize> =
+        [Role::Face, Role::Skin, Role::Hair, Role::HairFront, Role::Cloth, Role::Accessory, Role::Other]
+            .into_iter()
+            .flat_map(|role| materials_of(scene, role))
+            .collect();
+    for index in drawn {
+        let material = &mut scene.materials[index];
+        if material.alpha.mode != AlphaMode::Blend {
+            let width = OutlineWidth::Screen { height_ratio: 0.0011 };
+            material.outline = Some(Outline { width, color: [0.33, 0.22, 0.25], ..Outline::default() });
+        }
+    }
+}
+
+/// A band that follows view and light: painted, where the file carries one, else round the head.
+fn hair(scene: &mut Scene) {
+    let rim = DepthRim::default();
+    let mut bare = BTreeSet::new();
+    for role in [Role::HairFront, Role::Hair] {
+        for index in materials_of(scene, role) {
+            let material = &mut scene.materials[index];
+            material.depth_rim = Some(rim);
+            material.highlight = material.authored_highlight.map(|map| Highlight {
+                map,
+                second_strength: 0.5,
+                second_color: [0.86, 0.84, 1.0],
+                ..Highlight::default()
+            });
+            if material.highlight.is_none() {
+                bare.insert(index);
+            }
+        }
+    }
+    hair_band::add(scene, &bare);
+}
+
+fn faces(scene: &mut Scene, painted: Option<&ThresholdMap>) {
+    for index in materials_of(scene, Role::Face).into_iter().take(MOST_FACES) {
+        let map = face_map(scene, index).map(|mesh| match painted {
+            Some(painted) => over(painted, &mesh),
+            None => mesh,
+        });
+        let shade = shade_factor(&scene.materials[index]);
+        let material = &mut scene.materials[index];
+        material.bangs_shadow = Some(BangsShadow { color: shade, ..BangsShadow::default() });
+        material.transition = Some(Transition::default());
+        material.depth_rim = Some(DepthRim { strength: 0.6, ..DepthRim::default() });
+        material.highlight = material.authored_highlight.map(|map| Highlight {
+            map,
+            strength: 0.9,
+            light_v: 0.0,
+            view_v: 0.0,
+            turn_u: 0.012,
+            facing: 0.35,
+            ..Highlight::default()
+        });
+        material.face_paint = material.authored_face_paint.map(|map| FacePaint { map, ..FacePaint::default() });
+        if let Some(map) = map {
+            scene.face_maps.push(map);
+            material.face_shadow = Some(FaceShadow { map: scene.face_maps.len() - 1, ..FaceShadow::default() });
+        }
+    }
+}
+
+/// White, iris and lights lie on one another in this order; lids and bangs shade the first two, and nothing the lights.
+fn eyes(scene: &mut Scene) {
+    for (role, index, shadow) in [
+        (Role::EyeWhite, 0, Some([0.7, 0.66, 0.82])),
+        (Role::Eye, 1, Some([0.66, 0.6, 0.72])),
+        (Role::EyeHighlight, 2, None),
+    ] {
+        for material in materials_of(scene, role) {
+            let material = &mut scene.materials[material];
+            material.layer = Some(Layer { index, stay_lit: f32::from(u8::from(shadow.is_none())) });
+            material.bangs_shadow =
+                shadow.map(|color| BangsShadow { color, strength: 0.8, lids: true, ..BangsShadow::default() });
+        }
+    }
+}
+
+/// What the lit colour is multiplied by in shade, where one texture serves both; else the default of the shadow.
+fn shade_factor(material: &Material) -> [f32; 3] {
+    match material.shading {
+        Shading::Toon(toon) if toon.shade_texture == material.base.texture => {
+            let [r, g, b, _] = material.base.color;
+            let share = |shade: f32, base: f32| {
+                if base > 1e-3 {
+                    (shade / base).clamp(0.0, 1.0)
+                } else {
+                    1.0
+                }
+            };
+            [share(toon.shade_color[0], r), share(toon.shade_color[1], g), share(toon.shade_color[2], b)]
+        }
+        _ => BangsShadow::default().color,
+    }
+}
+
+/// The painted thresholds, with the regions of the map from the mesh.
+fn over(painted: &ThresholdMap, mesh: &FaceMap) -> FaceMap {
+    let mut texels = painted.mirrored();
+    let [width, height] = [texels.width as usize, texels.height as usize];
+    let regions = mesh.front.first().map_or(&[] as &[[u16; 4]], Vec::as_slice);
+    for (i, texel) in texels.rgba.iter_mut().enumerate() {
+        let (x, y) = (i % width * mesh.width as usize / width, i / width * mesh.height as usize / height);
+        texel[2] = regions.get(y * mesh.width as usize + x).map_or(0, |r| r[2]);
+    }
+    FaceMap::single("painted", texels)
+}

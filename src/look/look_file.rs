@@ -1,0 +1,551 @@
+//! The look file: a text beside a model that corrects what was guessed and sets any number of any section.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize, de::DeserializeOwned};
+use toml::{Table, Value};
+
+use super::{Look, anime::materials_of};
+use crate::color::{LinearRgb, Srgb};
+use crate::import::image;
+use crate::scene::{Ambient, DirectionalLight, Image, Lights, Role, Sampler, Scene, Texture, Wrap};
+use crate::sdf::{FaceLayout, FaceMap, Texels};
+use crate::{Error, Result};
+
+/// Largest look file, bytes.
+const MAX_BYTES: u64 = 1 << 20;
+
+/// A look in a file: `MODEL.look.toml`.
+///
+/// ```toml
+/// base = "anime"                      # what it starts from: anime (default) or plain
+///
+/// [parts]                             # roles that were guessed wrong, by the name of a mesh or a material
+/// Hair_mae = "hair-front"
+///
+/// [light]                             # lights of pictures that name none
+/// direction_deg = [-40, 30]           # to the character's left, and height
+/// color = "#fff4e8"
+///
+/// [bangs]                             # sections of the scene; false switches one off
+/// soft_width_mm = 4
+/// [eyes_through]
+/// opacity = 0.4
+///
+/// [role.face.face_shadow]             # sections of every material that has a part of this role
+/// map = "face.png"                    # or: stack = [{ pitch_deg = 0, front = "a.png", back = "b.png" }], masks = "c.png"
+/// softness = 0.02
+/// [role.hair]
+/// highlight = false
+///
+/// [material."Face skin".outline]      # sections of one material; these come last
+/// color = "#8c4a44"
+/// ```
+///
+/// Sections and keys are those of [`Material`](crate::material::Material), [`Bangs`](crate::scene::Bangs) and
+/// [`EyesThrough`](crate::scene::EyesThrough). What a file does not name stays as it is. Instead of `_rad` a key may end in
+/// `_deg`, instead of `_m` in `_cm` or `_mm`; a colour may be `"#rrggbb"` (sRGB) or linear numbers; a texture is a file
+/// beside the look file. A name or key that does not exist is an error with the nearest one that does.
+#[derive(Clone, Debug, Default)]
+pub struct LookFile {
+    path: PathBuf,
+    document: Document,
+}
+
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+struct Document {
+    base: BaseName,
+    parts: BTreeMap<String, Role>,
+    light: Option<Value>,
+    bangs: Option<Value>,
+    eyes_through: Option<Value>,
+    role: BTreeMap<Role, Table>,
+    material: BTreeMap<String, Table>,
+}
+
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq)]
+#[serde(rename_all = "kebab-case")]
+enum BaseName {
+    Plain,
+    #[default]
+    Anime,
+}
+
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+struct LightSection {
+    direction_rad: [f32; 2],
+    color: [f32; 3],
+    intensity: f32,
+    ambient: [f32; 3],
+}
+
+impl Default for LightSection {
+    fn default() -> Self {
+        let light = DirectionalLight::default();
+        let d = light.to_light;
+        Self {
+            direction_rad: [d.x.atan2(d.z), d.y.asin()],
+            color: light.color.0,
+            intensity: light.intensity,
+            ambient: Ambient::default().sky.0,
+        }
+    }
+}
+
+/// The maps of a face as a look file names them.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FaceMaps {
+    #[serde(default)]
+    layout: FaceLayout,
+    map: Option<PathBuf>,
+    #[serde(default)]
+    stack: Vec<PitchMaps>,
+    masks: Option<PathBuf>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct PitchMaps {
+    #[serde(default)]
+    pitch_rad: f32,
+    front: PathBuf,
+    back: Option<PathBuf>,
+}
+
+impl LookFile {
+    /// Where the look of a model would stand: `girl.look.toml` beside `girl.vrm`.
+    #[must_use]
+    pub fn beside(model: &Path) -> PathBuf {
+        model.with_extension("look.toml")
+    }
+
+    /// Reads a look file. Sections of materials and textures are checked when it is applied.
+    ///
+    /// # Errors
+    /// The file cannot be read, is over 1 MiB, is not TOML, or has a key that does not exist.
+    pub fn read(path: impl AsRef<Path>) -> Result<Self> {
+        let path = path.as_ref();
+        let size = std::fs::metadata(path).map_err(|e| Error::io(path, &e))?;
+        let name = path.display().to_string();
+        if !size.is_file() {
+            return Err(Error::Io { path: name, reason: "is not a regular file".to_owned() });
+        }
+        if size.len() > MAX_BYTES {
+            let (pointer, unit) = ("file".to_owned(), "bytes");
+            return Err(Error::Limit { path: name, pointer, found: size.len(), limit: MAX_BYTES, unit });
+        }
+        let text = std::fs::read_to_string(path).map_err(|e| Error::io(path, &e))?;
+        Self::parse(path, &text)
+    }
+
+    /// Reads the text of a look file; textures are looked for beside `path`.
+    ///
+    /// # Errors
+    /// The text is not TOML, or has a key that does not exist.
+    pub fn parse(path: impl AsRef<Path>, text: &str) -> Result<Self> {
+        let path = path.as_ref().to_owned();
+        let fault = |pointer: String, message: &str| Error::Input {
+            path: path.display().to_string(),
+            pointer,
+            message: nearest(message),
+        };
+        let document: Document = toml::from_str(text).map_err(|e| fault(line_of(text, e.span()), e.message()))?;
+        Ok(Self { path, document })
+    }
+
+    /// Changes a scene: roles first, then the base look, then the sections. `face` are the painted thresholds of a
+    /// character that has some ([`Look::Anime`]).
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a part, a material or a key that does not exist, a value out of its domain, or a texture that
+    /// cannot be read; the scene may be changed in part then.
+    pub fn apply(&self, scene: &mut Scene, face: Option<&crate::sdf::ThresholdMap>) -> Result<()> {
+        for (name, role) in &self.document.parts {
+            self.correct(scene, name, *role)?;
+        }
+        match self.document.base {
+            BaseName::Plain => Look::Plain,
+            BaseName::Anime => Look::Anime { face: face.cloned() },
+        }
+        .apply(scene);
+        if self.document.light.is_some() {
+            let light = self.section("light", self.document.light.as_ref(), None::<LightSection>)?;
+            scene.lights = light.as_ref().map(lights);
+        }
+        scene.bangs = self.section("bangs", self.document.bangs.as_ref(), scene.bangs)?;
+        scene.eyes_through = self.section("eyes_through", self.document.eyes_through.as_ref(), scene.eyes_through)?;
+        for (role, table) in &self.document.role {
+            let name = format!("role.{}", role_name(*role));
+            for material in materials_of(scene, *role) {
+                self.change(scene, material, table, &name)?;
+            }
+        }
+        for (name, table) in &self.document.material {
+            let pointer = format!("material.{name:?}");
+            let found: Vec<usize> = (0..scene.materials.len()).filter(|i| scene.materials[*i].name == *name).collect();
+            if found.is_empty() {
+                let names = scene.materials.iter().map(|m| m.name.as_str());
+                return Err(self.fault(&pointer, no_such("material", name, names)));
+            }
+            for material in found {
+                self.change(scene, material, table, &pointer)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The sections of a scene as a look file that changes nothing, for artists to start from: every number of every
+    /// section of each role.
+    #[must_use]
+    pub fn template(scene: &Scene) -> String {
+        let mut root = Table::new();
+        root.insert("base".to_owned(), "plain".into());
+        let section = |value: Option<Table>| value.map(Value::Table);
+        let (bangs, through) = (scene.bangs.and_then(table_of), scene.eyes_through.and_then(table_of));
+        root.extend(section(bangs).map(|t| ("bangs".to_owned(), t)));
+        root.extend(section(through).map(|t| ("eyes_through".to_owned(), t)));
+        let mut roles = Table::new();
+        let used: BTreeSet<Role> = scene.meshes.iter().flat_map(|m| &m.primitives).map(|p| p.role).collect();
+        for role in used {
+            let Some(&first) = materials_of(scene, role).first() else { continue };
+            let Some(mut table) = table_of(&scene.materials[first]) else { continue };
+            let kept = ["face_shadow", "transition", "face_paint", "bangs_shadow", "highlight", "layer", "depth_rim"];
+            table.retain(|key, _| kept.iter().any(|k| *k == key));
+            strip_textures(&mut table);
+            if !table.is_empty() {
+                roles.insert(role_name(role), Value::Table(table));
+            }
+        }
+        root.insert("role".to_owned(), Value::Table(roles));
+        toml::to_string_pretty(&root).unwrap_or_default()
+    }
+
+    /// Sets the role of parts by the name of their mesh or material.
+    fn correct(&self, scene: &mut Scene, name: &str, role: Role) -> Result<()> {
+        let Scene { meshes, materials, .. } = scene;
+        let is_named = |material: usize| materials.get(material).is_some_and(|m| m.name == name);
+        let mut found = false;
+        for mesh in meshes.iter_mut() {
+            let whole = mesh.name == name;
+            for part in mesh.primitives.iter_mut().filter(|p| whole || is_named(p.material)) {
+                part.role = role;
+                found = true;
+            }
+        }
+        if found {
+            return Ok(());
+        }
+        let names = meshes.iter().map(|m| m.name.as_str()).chain(materials.iter().map(|m| m.name.as_str()));
+        Err(self.fault("parts", no_such("mesh or material", name, names)))
+    }
+
+    /// A section of the scene with what the file says over it.
+    fn section<T: Serialize + DeserializeOwned + Default>(
+        &self,
+        name: &str,
+        over: Option<&Value>,
+        current: Option<T>,
+    ) -> Result<Option<T>> {
+        match over {
+            None => Ok(current),
+            Some(Value::Boolean(false)) => Ok(None),
+            Some(Value::Table(over)) => {
+                let mut over = over.clone();
+                units(&mut over, false).map_err(|message| self.fault(name, message))?;
+                self.merged(&current.unwrap_or_default(), &over, name).map(Some)
+            }
+            Some(_) => Err(self.fault(name, "expected a table, or false to switch it off".to_owned())),
+        }
+    }
+
+    /// Lays the sections of a table over a material.
+    fn change(&self, scene: &mut Scene, material: usize, over: &Table, pointer: &str) -> Result<()> {
+        let mut over = over.clone();
+        if let Some(Value::Table(shadow)) = over.get_mut("face_shadow") {
+            self.face_maps(scene, shadow, &format!("{pointer}.face_shadow"))?;
+        }
+        self.textures(scene, &mut over, "", pointer)?;
+        units(&mut over, false).map_err(|message| self.fault(pointer, message))?;
+        scene.materials[material] = self.merged(&scene.materials[material], &over, pointer)?;
+        Ok(())
+    }
+
+    fn merged<T: Serialize + DeserializeOwned>(&self, current: &T, over: &Table, pointer: &str) -> Result<T> {
+        let mut value = table_of(current).unwrap_or_default();
+        merge(&mut value, over);
+        if let Some(bad) = not_finite(&value) {
+            return Err(self.fault(pointer, format!("{bad} is not finite; expected a number")));
+        }
+        Value::Table(value).try_into().map_err(|e: toml::de::Error| self.fault(pointer, nearest(e.message())))
+    }
+
+    /// Reads the maps that a section of a face's shadow names, and puts the number of the face map in their place.
+    fn face_maps(&self, scene: &mut Scene, section: &mut Table, pointer: &str) -> Result<()> {
+        let mut named = Table::new();
+        for key in ["map", "stack", "masks", "layout"] {
+            // A number is that of a map that is there.
+            if !section.get(key).is_some_and(Value::is_integer) {
+                named.extend(section.remove_entry(key));
+            }
+        }
+        if named.is_empty() {
+            return Ok(());
+        }
+        for step in named.get_mut("stack").and_then(Value::as_array_mut).into_iter().flatten() {
+            if let Some(step) = step.as_table_mut() {
+                units(step, false).map_err(|message| self.fault(pointer, message))?;
+            }
+        }
+        let maps: FaceMaps = Value::Table(named)
+            .try_into()
+            .map_err(|e: toml::de::Error| self.fault(pointer, nearest(e.message())))?;
+        let read = |path: &PathBuf| -> Result<Texels> {
+            Ok(image::load_texels(self.beside_this(path, pointer)?)?.laid_out(maps.layout))
+        };
+        let stack = match (&maps.map, maps.stack.as_slice()) {
+            (Some(front), []) => vec![PitchMaps { pitch_rad: 0.0, front: front.clone(), back: None }],
+            (None, [_, ..]) => maps.stack,
+            _ => return Err(self.fault(pointer, "expected either map or stack".to_owned())),
+        };
+        let mut face: Option<FaceMap> = None;
+        for step in &stack {
+            let front = read(&step.front)?;
+            let back = step.back.as_ref().map(&read).transpose()?;
+            let face = face.get_or_insert_with(|| FaceMap {
+                name: step.front.display().to_string(),
+                width: front.width,
+                height: front.height,
+                is_8_bit: true,
+                ..FaceMap::default()
+            });
+            face.pitches_rad.push(step.pitch_rad);
+            face.is_8_bit &= front.is_8_bit && back.as_ref().is_none_or(|b| b.is_8_bit);
+            face.front.push(front.rgba);
+            face.back.extend(back.map(|b| b.rgba));
+        }
+        let mut face = face.unwrap_or_default();
+        if let Some(masks) = &maps.masks {
+            let masks = image::load_texels(self.beside_this(masks, pointer)?)?;
+            face.is_8_bit &= masks.is_8_bit;
+            face.masks = masks.rgba;
+        }
+        face.check().map_err(|e| self.fault(pointer, e.to_string()))?;
+        scene.face_maps.push(face);
+        section.insert("map".to_owned(), Value::Integer(scene.face_maps.len() as i64 - 1));
+        Ok(())
+    }
+
+    /// Loads every texture that a table names and puts its number in place of the name.
+    fn textures(&self, scene: &mut Scene, table: &mut Table, parent: &str, pointer: &str) -> Result<()> {
+        for (key, value) in table.iter_mut() {
+            match value {
+                Value::Table(inner) if parent != "face_shadow" => self.textures(scene, inner, key, pointer)?,
+                Value::String(name) if TEXTURE_KEYS.contains(&key.as_str()) => {
+                    let texture = add_texture(scene, image::load(self.beside_this(Path::new(name), pointer)?)?);
+                    let number = Value::Integer(texture as i64);
+                    // A matcap has no transform: its texture is the number itself.
+                    *value = if parent == "matcap" {
+                        number
+                    } else {
+                        Value::Table(Table::from_iter([("texture".to_owned(), number)]))
+                    };
+                }
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+
+    /// A file beside the look file, or below its folder.
+    fn beside_this(&self, name: &Path, pointer: &str) -> Result<PathBuf> {
+        let inside = name.components().all(|c| matches!(c, std::path::Component::Normal(_)));
+        if !inside {
+            let message = format!("{:?} leads out of the folder; expected a file beside the look file", name.display());
+            return Err(self.fault(pointer, message));
+        }
+        Ok(self.path.parent().unwrap_or(Path::new("")).join(name))
+    }
+
+    fn fault(&self, pointer: &str, message: String) -> Error {
+        Error::Input { path: self.path.display().to_string(), pointer: pointer.to_owned(), message }
+    }
+}
+
+/// Keys that hold a texture.
+const TEXTURE_KEYS: [&str; 6] = ["texture", "shade_texture", "shift_texture", "mask", "width_mask", "map"];
+
+fn add_texture(scene: &mut Scene, image: Image) -> usize {
+    scene.images.push(image);
+    // Highlights that move out of their map must not come in on the other side; skins and clothes stay within.
+    let sampler = Sampler { wrap_u: Wrap::Clamp, wrap_v: Wrap::Clamp, ..Sampler::default() };
+    scene.textures.push(Texture { image: scene.images.len() - 1, sampler });
+    scene.textures.len() - 1
+}
+
+fn lights(section: &LightSection) -> Lights {
+    let [yaw, pitch] = section.direction_rad;
+    Lights {
+        directional: DirectionalLight {
+            to_light: glam::Vec3::new(yaw.sin() * pitch.cos(), pitch.sin(), yaw.cos() * pitch.cos()),
+            color: LinearRgb(section.color),
+            intensity: section.intensity,
+        },
+        ambient: Ambient::uniform(LinearRgb(section.ambient)),
+        punctual: Vec::new(),
+    }
+}
+
+fn table_of<T: Serialize>(value: T) -> Option<Table> {
+    Table::try_from(value).ok()
+}
+
+fn role_name(role: Role) -> String {
+    Value::try_from(role).ok().and_then(|v| Some(v.as_str()?.to_owned())).unwrap_or_default()
+}
+
+/// Removes what refers to textures by number: a look file names files.
+fn strip_textures(table: &mut Table) {
+    table.retain(|key, _| !TEXTURE_KEYS.iter().any(|k| *k == key));
+    for value in table.iter_mut().filter_map(|(_, v)| v.as_table_mut()) {
+        strip_textures(value);
+    }
+}
+
+/// Lays a table over another. `false` takes a section out. The variants of an enum exclude each other, so that theirs are
+/// replaced whole.
+fn merge(under: &mut Table, over: &Table) {
+    for (key, value) in over {
+        let is_switch = matches!(under.get(key), Some(Value::Boolean(_)));
+        match (under.get_mut(key), value) {
+            (Some(Value::Table(a)), Value::Table(b)) => {
+                let is_variant = ["shading", "width"].contains(&key.as_str()) && !a.keys().eq(b.keys());
+                if is_variant {
+                    *a = b.clone();
+                } else {
+                    merge(a, b);
+                }
+            }
+            (_, Value::Boolean(false)) if !is_switch => {
+                under.remove(key);
+            }
+            _ => {
+                under.insert(key.clone(), value.clone());
+            }
+        }
+    }
+}
+
+/// Turns degrees, centimetres and millimetres into what sections hold, and written colours into linear numbers.
+fn units(table: &mut Table, with_alpha: bool) -> Result<(), String> {
+    let keys: Vec<String> = table.keys().cloned().collect();
+    for key in keys {
+        let suffixes = [("_deg", "_rad", std::f64::consts::PI / 180.0), ("_cm", "_m", 0.01), ("_mm", "_m", 0.001)];
+        let is_color = key == "color" || key.ends_with("_color") || key == "ambient";
+        if let Some((suffix, unit, scale)) = suffixes.iter().find(|(suffix, ..)| key.ends_with(suffix)) {
+            let value = table.remove(&key).unwrap_or(Value::Boolean(false));
+            let scaled = scaled(&value, *scale).ok_or_else(|| format!("{key}: expected a number or a list of numbers"))?;
+            table.insert(format!("{}{unit}", key.trim_end_matches(suffix)), scaled);
+            continue;
+        }
+        match table.get_mut(&key) {
+            Some(Value::Table(inner)) => units(inner, key == "base")?,
+            Some(value @ Value::String(_)) if is_color => {
+                let text = value.as_str().unwrap_or_default();
+                let srgb = Srgb::from_hex(text).ok_or_else(|| format!("{key}: {text:?} is no colour; expected \"#rrggbb\""))?;
+                let alpha = with_alpha.then_some(1.0);
+                *value = Value::Array(srgb.to_linear().0.into_iter().chain(alpha).map(|c| Value::Float(c.into())).collect());
+            }
+            _ => {}
+        }
+    }
+    Ok(())
+}
+
+fn scaled(value: &Value, by: f64) -> Option<Value> {
+    match value {
+        Value::Float(x) => Some(Value::Float(x * by)),
+        Value::Integer(x) => Some(Value::Float(*x as f64 * by)),
+        Value::Array(list) => list.iter().map(|v| scaled(v, by)).collect::<Option<_>>().map(Value::Array),
+        _ => None,
+    }
+}
+
+/// Name of a number that is infinite or none.
+fn not_finite(table: &Table) -> Option<String> {
+    fn bad(value: &Value) -> bool {
+        match value {
+            Value::Float(x) => !x.is_finite() || x.abs() > f64::from(f32::MAX),
+            Value::Array(list) => list.iter().any(bad),
+            _ => false,
+        }
+    }
+    table.iter().find_map(|(key, value)| match value {
+        Value::Table(inner) => not_finite(inner).map(|inner| format!("{key}.{inner}")),
+        value => bad(value).then(|| key.clone()),
+    })
+}
+
+fn no_such<'a>(what: &str, name: &str, names: impl Iterator<Item = &'a str>) -> String {
+    let near = closest(name, names.filter(|n| !n.is_empty()));
+    format!("there is no {what} {name:?}{}", near.map_or(String::new(), |n| format!("; the nearest is {n:?}")))
+}
+
+fn closest<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+    names.min_by_key(|n| strsim::damerau_levenshtein(&name.to_lowercase(), &n.to_lowercase()))
+}
+
+/// A message about an unknown key, which lists all that there are, with the nearest of them instead.
+fn nearest(message: &str) -> String {
+    let first = message.lines().next().unwrap_or_default();
+    let is_unknown = first.starts_with("unknown field") || first.starts_with("unknown variant");
+    let quoted: Vec<&str> = first.split('`').skip(1).step_by(2).collect();
+    match (is_unknown, quoted.as_slice()) {
+        (true, [name, known @ ..]) if !known.is_empty() => {
+            let near = closest(name, known.iter().copied()).unwrap_or_default();
+            format!("there is no {name:?}; the nearest is {near:?} (known: {})", known.join(", "))
+        }
+        _ => first.to_owned(),
+    }
+}
+
+fn line_of(text: &str, span: Option<std::ops::Range<usize>>) -> String {
+    let before = span.and_then(|s| text.get(..s.start));
+    before.map_or("file".to_owned(), |b| format!("line {}", b.matches('\n').count() + 1))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::material::Material;
+
+    #[test]
+    fn a_material_comes_back_from_its_table() {
+        let material = Material {
+            outline: Some(crate::material::Outline::default()),
+            face_shadow: Some(crate::material::FaceShadow::default()),
+            layer: Some(crate::material::Layer::default()),
+            matcap: Some(crate::material::Matcap::default()),
+            ..Material::default()
+        };
+        let back: Material = Value::Table(table_of(&material).expect("a table")).try_into().expect("a material");
+        assert_eq!(back, material);
+    }
+
+    #[test]
+    fn units_and_colours_are_converted() {
+        let mut table: Table =
+            toml::from_str("a_deg = [180, 90.0]\nb_mm = 3\nc_cm = 2.5\nrim_color = \"#ffffff\"\n[base]\ncolor = \"#000000\"")
+                .expect("TOML");
+        units(&mut table, false).expect("known units");
+        let text = table.to_string();
+        assert!(text.contains("a_rad = [3.14159265358"), "{text}");
+        assert!(text.contains("b_m = 0.003") && text.contains("c_m = 0.025"), "{text}");
+        assert!(text.contains("rim_color = [1.0, 1.0, 1.0]") && text.contains("color = [0.0, 0.0, 0.0, 1.0]"), "{text}");
+        assert!(units(&mut toml::from_str("x_deg = true").expect("TOML"), false).is_err());
+        assert!(units(&mut toml::from_str("color = \"red\"").expect("TOML"), false).is_err());
+    }
+}

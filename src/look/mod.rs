@@ -1,0 +1,36 @@
+//! Looks: what is added to a character as its file describes it.
+
+mod anime;
+mod hair_band;
+mod look_file;
+
+pub use look_file::LookFile;
+
+use crate::scene::Scene;
+use crate::sdf::ThresholdMap;
+
+/// What a character is made to look like.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Look {
+    /// As the file says.
+    #[default]
+    Plain,
+    /// The head of a shipped anime game: the shadow of the face is a drawn shape, not a matter of normals; bangs cast
+    /// theirs on it; eyes and brows are seen through them; a band of light lies round the hair and follows view and light;
+    /// light turns warm before it turns to shade; contours towards the light have a rim.
+    Anime {
+        /// Threshold map painted for light from the character's left, over the face's texture; the other side mirrors
+        /// it. `None`: one is made from the mesh of each face.
+        face: Option<ThresholdMap>,
+    },
+}
+
+impl Look {
+    /// Changes the materials of a scene, before its upload. Roles decide what is what; a scene without a face keeps its
+    /// materials, and a face whose two sides share their texture coordinates the shadow of its normals.
+    pub fn apply(&self, scene: &mut Scene) {
+        if let Self::Anime { face } = self {
+            anime::apply(scene, face.as_ref());
+        }
+    }
+}

@@ -1,0 +1,75 @@
+//! Nearest depths of the map of the bangs, by blocks: they spare most receivers its taps.
+
+use crate::{
+    Gpu,
+    render::{pass::bangs_shadow, shaders},
+};
+
+/// Texels of the map along a block; `BANGS_BLOCK` in `wgsl/lib/bangs.wgsl`.
+pub(crate) const BLOCK: u32 = 8;
+
+/// The pipeline.
+#[derive(Debug)]
+pub(crate) struct BangsNearPass {
+    pipeline: wgpu::RenderPipeline,
+}
+
+/// What the pass reads and writes: one layer of the map, through a group of [`BangsNearPass::group`], and its nearest depths.
+pub(crate) struct BangsNearInputs<'a> {
+    pub map: &'a wgpu::BindGroup,
+    pub near: &'a wgpu::TextureView,
+}
+
+impl BangsNearPass {
+    pub fn new(gpu: &Gpu) -> Self {
+        let module = shaders::module(&gpu.device, "bangs_near");
+        let pipeline = gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some("bangs near"),
+            layout: None,
+            vertex: wgpu::VertexState {
+                module: &module,
+                entry_point: Some("vs_main"),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                buffers: &[],
+            },
+            primitive: wgpu::PrimitiveState::default(),
+            depth_stencil: None,
+            multisample: wgpu::MultisampleState::default(),
+            fragment: Some(wgpu::FragmentState {
+                module: &module,
+                entry_point: Some("fs_main"),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                targets: &[Some(bangs_shadow::FORMAT.into())],
+            }),
+            multiview_mask: None,
+            cache: None,
+        });
+        Self { pipeline }
+    }
+
+    /// Binds a layer of the map.
+    pub fn group(&self, gpu: &Gpu, layer: &wgpu::TextureView) -> wgpu::BindGroup {
+        gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("bangs near"),
+            layout: &self.pipeline.get_bind_group_layout(0),
+            entries: &[wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(layer) }],
+        })
+    }
+
+    /// Finds the nearest depths of one layer.
+    pub fn encode(&self, encoder: &mut wgpu::CommandEncoder, inputs: &BangsNearInputs<'_>) {
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("bangs near"),
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view: inputs.near,
+                depth_slice: None,
+                resolve_target: None,
+                ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::WHITE), store: wgpu::StoreOp::Store },
+            })],
+            ..Default::default()
+        });
+        pass.set_pipeline(&self.pipeline);
+        pass.set_bind_group(0, inputs.map, &[]);
+        pass.draw(0..3, 0..1);
+    }
+}

@@ -1,0 +1,19 @@
+// Light along the contour, where the picture is farther beside a surface.
+
+// Offset to the place that is compared, pixels: along the normal as it is seen, `width` of a picture 1024 high. 1e-6: a
+// normal towards the viewer has no direction.
+fn depth_rim_offset(normal_view: vec2f, width: f32, height: f32) -> vec2f {
+    let d = normal_view * inverseSqrt(max(dot(normal_view, normal_view), 1e-12));
+    return vec2f(d.x, -d.y) * width * height / 1024.0;
+}
+
+// Share of the rim by the step in depth: none up to the threshold, full a quarter above.
+fn depth_rim_step(step_m: f32, threshold_m: f32) -> f32 {
+    let t = max(threshold_m, 1e-5);
+    return saturate((step_m - t) / (0.25 * t));
+}
+
+// Share of the rim by the side of the light; `side` are values of N.L between which it fades in.
+fn depth_rim_side(n_dot_l: f32, side: vec2f) -> f32 {
+    return smoothstep(side.x, max(side.y, side.x + 1e-4), n_dot_l);
+}
