@@ -89,4 +89,35 @@ fn nothing_is_seen_from_behind_or_through_what_hangs_far_before() {
         render(&gpu, scene, &view)
     };
     assert_eq!(changed(&two(&bare), &two(&through)), [0usize; 0], "seen through another one's hair");
+    // The window is not what keeps them apart: each has a number of her own.
+    let wide = heroine(Some(EyesThrough { opacity: 1.0, window_m: 0.6, ..EyesThrough::default() }));
+    assert_eq!(changed(&two(&bare), &two(&wide)), [0usize; 0], "seen through another one's hair in a wide window");
+}
+
+/// It fades to above and below on its own angles.
+#[test]
+fn from_high_above_nothing_is_seen_through() {
+    let gpu = gpu();
+    let bare = heroine(None);
+    let seen_at = |pitch_deg: f32| {
+        let mut view = face(&bare, 0.0);
+        let away = view.camera.eye - view.camera.target;
+        view.camera.eye = view.camera.target + glam::Quat::from_rotation_x(-pitch_deg.to_radians()) * away;
+        changed(&render(&gpu, &bare, &view), &render(&gpu, &heroine(seen(1.0)), &view)).len()
+    };
+    let [level, raised, high] = [0.0, 30.0, 72.0].map(seen_at);
+    assert!(level > 60 && raised > 20 && high == 0, "{level}, {raised}, {high} pixels");
+}
+
+/// In a crowd each one's eyes are seen through her own hair, also of those who share a number.
+#[test]
+fn a_crowd_is_seen_through_like_one() {
+    let gpu = gpu();
+    let (bare, through) = (heroine(None), heroine(seen(0.5)));
+    let mut view = face(&bare, 0.0);
+    let alone = changed(&render(&gpu, &bare, &view), &render(&gpu, &through, &view)).len();
+    // 69 far to the side, and one before the camera.
+    view.instances = (0..70).map(|i| Mat4::from_translation(glam::Vec3::X * i as f32 * 3.0)).collect();
+    view.instances.reverse();
+    assert_eq!(changed(&render(&gpu, &bare, &view), &render(&gpu, &through, &view)).len(), alone);
 }

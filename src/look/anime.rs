@@ -68,7 +68,8 @@ fn hair(scene: &mut Scene) {
                 second_color: [0.86, 0.84, 1.0],
                 ..Highlight::default()
             });
-            if material.highlight.is_none() {
+            // Wisps of alpha are drawn, not lit.
+            if material.highlight.is_none() && material.alpha.mode != AlphaMode::Blend {
                 bare.insert(index);
             }
         }

@@ -208,19 +208,24 @@ impl LookFile {
         let (bangs, through) = (scene.bangs.and_then(table_of), scene.eyes_through.and_then(table_of));
         root.extend(section(bangs).map(|t| ("bangs".to_owned(), t)));
         root.extend(section(through).map(|t| ("eyes_through".to_owned(), t)));
-        let mut roles = Table::new();
+        let (mut roles, mut materials) = (Table::new(), Table::new());
         let used: BTreeSet<Role> = scene.meshes.iter().flat_map(|m| &m.primitives).map(|p| p.role).collect();
         for role in used {
-            let Some(&first) = materials_of(scene, role).first() else { continue };
-            let Some(mut table) = table_of(&scene.materials[first]) else { continue };
-            let kept = ["face_shadow", "transition", "face_paint", "bangs_shadow", "highlight", "layer", "depth_rim"];
-            table.retain(|key, _| kept.iter().any(|k| *k == key));
-            strip_textures(&mut table);
-            if !table.is_empty() {
-                roles.insert(role_name(role), Value::Table(table));
+            let of_role: Vec<(usize, Table)> =
+                materials_of(scene, role).into_iter().map(|m| (m, look_sections(&scene.materials[m]))).collect();
+            let Some((_, first)) = of_role.first() else { continue };
+            // One section for all of them where they agree.
+            if of_role.iter().all(|(_, table)| table == first) {
+                roles.insert(role_name(role), Value::Table(first.clone()));
+            } else {
+                let named = of_role.into_iter().map(|(m, table)| (scene.materials[m].name.clone(), Value::Table(table)));
+                materials.extend(named);
             }
         }
-        root.insert("role".to_owned(), Value::Table(roles));
+        for (name, mut tables) in [("role", roles), ("material", materials)] {
+            tables.retain(|_, table| table.as_table().is_some_and(|t| !t.is_empty()));
+            root.insert(name.to_owned(), Value::Table(tables));
+        }
         toml::to_string_pretty(&root).unwrap_or_default()
     }
 
@@ -405,6 +410,15 @@ fn table_of<T: Serialize>(value: T) -> Option<Table> {
 
 fn role_name(role: Role) -> String {
     Value::try_from(role).ok().and_then(|v| Some(v.as_str()?.to_owned())).unwrap_or_default()
+}
+
+/// What looks add to a material, without its textures.
+fn look_sections(material: &crate::material::Material) -> Table {
+    let kept = ["face_shadow", "transition", "face_paint", "bangs_shadow", "highlight", "layer", "depth_rim"];
+    let mut table = table_of(material).unwrap_or_default();
+    table.retain(|key, _| kept.iter().any(|k| *k == key));
+    strip_textures(&mut table);
+    table
 }
 
 /// Removes what refers to textures by number: a look file names files.

@@ -9,7 +9,7 @@ import package::bind::material::{
     highlight_texture, highlight_sampler, face_paint_texture, face_paint_sampler,
 };
 import package::lib::bangs::bangs_factor;
-import package::lib::depth_rim::{depth_rim_offset, depth_rim_side, depth_rim_step};
+import package::lib::depth_rim::{depth_rim_offset, depth_rim_resolved, depth_rim_side, depth_rim_step};
 import package::lib::face_paint::face_paint_factor;
 import package::lib::face_shadow::{
     face_back_share, face_light_angle, face_lit, face_masked, face_measure, face_shading, face_side, face_stack_place,
@@ -316,13 +316,14 @@ fn shade_surface(options: SurfaceOptions, in: SurfaceInput) -> vec4f {
         let height = f32(textureDimensions(frame_depth).y);
         let offset = depth_rim_offset(seen, material.depth_rim_width, height);
         let here = frame.near / max(in.pixel.z, 1e-12);
-        // Two places a pixel apart soften the inner edge.
-        let half_px = offset * (0.5 / max(length(offset), 0.5));
+        // Two places a pixel apart soften the inner edge; a little less, since half a pixel lies between two centres.
+        let half_px = offset * (0.49 / max(length(offset), 0.5));
         let near_step = distance_at(vec2i(floor(in.pixel.xy + offset - half_px))) - here;
         let far_step = distance_at(vec2i(floor(in.pixel.xy + offset + half_px))) - here;
         let threshold = material.depth_rim_threshold;
         contour = 0.5 * (depth_rim_step(near_step, threshold) + depth_rim_step(far_step, threshold))
-            * depth_rim_side(dot(normal, frame.to_light), material.depth_rim_side);
+            * depth_rim_side(dot(normal, frame.to_light), material.depth_rim_side)
+            * depth_rim_resolved(material.depth_rim_width, height);
         color += material.depth_rim_color * frame.light_color * contour;
     }
     if options.channel != 0u {
@@ -352,7 +353,7 @@ fn layer_color(options: SurfaceOptions) -> vec3f {
     if !options.layered {
         return vec3f(0.0);
     }
-    return vec3f(0.5 + material.layer_pull * 500.0);
+    return vec3f(0.5 + material.layer_pull * 600.0);
 }
 
 // Light on a face by its map: with its own border and with that of the transition, share of normal shading, strength.

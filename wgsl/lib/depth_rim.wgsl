@@ -17,3 +17,8 @@ fn depth_rim_step(step_m: f32, threshold_m: f32) -> f32 {
 fn depth_rim_side(n_dot_l: f32, side: vec2f) -> f32 {
     return smoothstep(side.x, max(side.y, side.x + 1e-4), n_dot_l);
 }
+
+// Share that is left in small pictures: a rim of less than a pixel and a half would break into dots.
+fn depth_rim_resolved(width: f32, height: f32) -> f32 {
+    return saturate(width * height / 1024.0 - 0.5);
+}

@@ -1,10 +1,12 @@
-//! `hikage sheet`: one picture of a character from all sides, with every expression.
+//! `hikage sheet`: one picture of a character from all sides, with every expression, or over a sweep of light, head or
+//! camera.
 
 use std::path::PathBuf;
 
-use hikage::motion::Stance;
+use glam::{Quat, Vec3};
+use hikage::motion::{Pose, Stance};
 use hikage::picture::{encode_png, write_atomic};
-use hikage::scene::{Framing, Image, Scene};
+use hikage::scene::{Framing, HumanBone, Image, Scene};
 use hikage::{Background, Output, Renderer, View, color::Srgb};
 use noto_sans_mono_bitmap::{FontWeight, RasterHeight, get_raster};
 
@@ -26,16 +28,32 @@ pub(crate) struct Args {
     /// beside the model (girl.look.toml beside girl.vrm), else plain].
     #[arg(long, value_name = "plain|anime|FILE.look.toml", value_parser = args::look)]
     look: Option<LookName>,
-    /// Width of one panel, pixels.
-    #[arg(long, value_name = "PIXELS", default_value_t = 384, value_parser = clap::value_parser!(u32).range(64..=1024))]
-    panel: u32,
+    /// Shows the face over a sweep instead: the light all round at four heights, the head from side to side, or the camera
+    /// from 0.5 to 10 m with the face as large.
+    #[arg(long, value_enum, value_name = "light|head|distance", hide_possible_values = true)]
+    sweep: Option<Sweep>,
+    /// Width of one panel, pixels [default: 384; 160 in a sweep].
+    #[arg(long, value_name = "PIXELS", value_parser = clap::value_parser!(u32).range(64..=1024))]
+    panel: Option<u32>,
     /// Adapter, by a part of its name (`hikage adapters`).
     #[arg(long, value_name = "NAME")]
     adapter: Option<String>,
 }
 
-/// Panels in a row.
+/// `--sweep`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum Sweep {
+    /// Light from -180 to 180 degrees in steps of 15, at -30, 0, 30 and 60 degrees of height.
+    Light,
+    /// Head from -90 to 90 degrees in steps of 15.
+    Head,
+    /// Camera at 0.5 to 10 m.
+    Distance,
+}
+
+/// Panels in a line, of the sheet and of a sweep.
 const COLUMNS: usize = 4;
+const SWEEP_COLUMNS: usize = 13;
 /// Space between panels, and height of the line under each, pixels.
 const GAP: u32 = 8;
 const LINE: u32 = 24;
@@ -50,6 +68,58 @@ struct Panel {
     yaw_deg: f32,
     stance: Stance,
     expression: Option<String>,
+    /// Angles of the light, degrees; that of the look where `None`.
+    light_deg: Option<[f32; 2]>,
+    /// Turn of the head to the character's left.
+    head_deg: f32,
+    /// Distance of the camera, the face staying as large.
+    distance_m: Option<f32>,
+}
+
+impl Default for Panel {
+    fn default() -> Self {
+        Self {
+            caption: String::new(),
+            framing: Framing::Face,
+            yaw_deg: 0.0,
+            stance: Stance::Rest,
+            expression: None,
+            light_deg: None,
+            head_deg: 0.0,
+            distance_m: None,
+        }
+    }
+}
+
+/// What a sweep shows.
+fn sweep_rows(sweep: Sweep) -> Vec<Rows> {
+    let degrees = |from: i32, to: i32| (from..=to).step_by(15).map(|d| d as f32);
+    let row = |panels: Vec<Panel>| Rows { aspect: 1.0, panels };
+    match sweep {
+        Sweep::Light => [-30.0, 0.0, 30.0, 60.0]
+            .map(|pitch| {
+                let panel = |yaw: f32| Panel {
+                    caption: format!("{yaw:.0}, {pitch:.0}"),
+                    light_deg: Some([yaw, pitch]),
+                    ..Panel::default()
+                };
+                row(degrees(-180, 180).map(panel).collect())
+            })
+            .into(),
+        Sweep::Head => {
+            let panel = |turn: f32| Panel { caption: format!("head {turn:.0}"), head_deg: turn, ..Panel::default() };
+            vec![row(degrees(-90, 90).map(panel).collect())]
+        }
+        Sweep::Distance => {
+            let panel = |metres: f32| Panel {
+                caption: format!("{metres} m"),
+                distance_m: Some(metres),
+                yaw_deg: 20.0,
+                ..Panel::default()
+            };
+            vec![row([0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0].map(panel).into())]
+        }
+    }
 }
 
 /// Panels of the same shape, four in a row.
@@ -70,7 +140,7 @@ fn rows(scene: &Scene) -> Vec<Rows> {
             framing,
             yaw_deg,
             stance,
-            expression: None,
+            ..Panel::default()
         };
         turns.into_iter().map(panel).collect()
     };
@@ -84,10 +154,8 @@ fn rows(scene: &Scene) -> Vec<Rows> {
     let names = scene.character.iter().flat_map(|c| &c.expressions).map(|e| e.name.clone());
     let panel = |name: String| Panel {
         caption: name.clone(),
-        framing: Framing::Face,
-        yaw_deg: 0.0,
-        stance: Stance::Rest,
         expression: Some(name),
+        ..Panel::default()
     };
     rows.push(Rows { aspect: 1.0, panels: names.map(panel).collect() });
     rows
@@ -98,32 +166,38 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     spinner.step("loading the model");
     let mut scene = setup::load(args.model.as_deref())?;
     setup::apply_look(args.look.as_ref(), args.model.as_deref(), &mut scene)?;
-    let rows = rows(&scene);
+    let (rows, columns, panel) = match args.sweep {
+        Some(sweep) => (sweep_rows(sweep), SWEEP_COLUMNS, args.panel.unwrap_or(160)),
+        None => (rows(&scene), COLUMNS, args.panel.unwrap_or(384)),
+    };
     spinner.step("making pipelines");
     let gpu = setup::gpu(args.adapter.as_deref())?;
     let mut renderer = Renderer::with_output(&gpu, Output::default())?;
     let mut gpu_scene = renderer.upload_and_empty_images(&mut scene)?;
 
-    let panel_height = |row: &Rows| (args.panel as f32 * row.aspect).round() as u32;
-    let lines = |row: &Rows| row.panels.len().div_ceil(COLUMNS) as u32;
+    let panel_height = |row: &Rows| (panel as f32 * row.aspect).round() as u32;
+    let lines = |row: &Rows| row.panels.len().div_ceil(columns) as u32;
     let height = GAP + rows.iter().map(|r| lines(r) * (panel_height(r) + LINE + GAP)).sum::<u32>();
-    let mut sheet = paper(COLUMNS as u32 * (args.panel + GAP) + GAP, height);
+    let mut sheet = paper(columns as u32 * (panel + GAP) + GAP, height);
     let (count, mut done, mut top) = (rows.iter().map(|r| r.panels.len()).sum::<usize>(), 0, GAP);
     for row in &rows {
-        let size = [args.panel, panel_height(row)];
-        for line in row.panels.chunks(COLUMNS) {
-            for (column, panel) in line.iter().enumerate() {
+        let size = [panel, panel_height(row)];
+        for line in row.panels.chunks(columns) {
+            for (column, shown) in line.iter().enumerate() {
                 done += 1;
-                spinner.step(format!("{done} of {count}: {}", panel.caption));
-                let expressions: Vec<(String, f32)> = panel.expression.iter().map(|e| (e.clone(), 1.0)).collect();
-                let pose = setup::pose(&scene, panel.stance, &expressions)?;
+                spinner.step(format!("{done} of {count}: {}", shown.caption));
+                let expressions: Vec<(String, f32)> = shown.expression.iter().map(|e| (e.clone(), 1.0)).collect();
+                let mut pose = setup::pose(&scene, shown.stance, &expressions)?;
+                let view = view(&scene, shown, &pose, size);
+                if let Some(head) = scene.bone_node(HumanBone::Head) {
+                    let turn = Quat::from_rotation_y(shown.head_deg.to_radians());
+                    pose.locals[head].rotation *= turn;
+                }
                 gpu_scene.set_pose(&gpu, &scene, &pose);
-                let framed = View::framed_pose(&scene, &pose, panel.framing, panel.yaw_deg.to_radians(), size);
-                let view = View { background: Background::Color(BEHIND), ..framed };
                 let picture = renderer.render(&mut gpu_scene, &view)?;
-                let left = GAP + column as u32 * (args.panel + GAP);
+                let left = GAP + column as u32 * (panel + GAP);
                 place(&mut sheet, &picture, left, top);
-                write(&mut sheet, &panel.caption, left, top + size[1] + 4);
+                write(&mut sheet, &shown.caption, left, top + size[1] + 4);
             }
             top += size[1] + LINE + GAP;
         }
@@ -133,6 +207,23 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     deadline::stop();
     write_atomic(&args.output, &png)?;
     Ok(())
+}
+
+/// The view of a panel, of the pose before its head turns.
+fn view(scene: &Scene, shown: &Panel, pose: &Pose, size: [u32; 2]) -> View {
+    let framed = View::framed_pose(scene, pose, shown.framing, shown.yaw_deg.to_radians(), size);
+    let mut view = View { background: Background::Color(BEHIND), ..framed };
+    if let Some([yaw, pitch]) = shown.light_deg.map(|angles| angles.map(f32::to_radians)) {
+        view.lights.directional.to_light = Vec3::new(yaw.sin() * pitch.cos(), pitch.sin(), yaw.cos() * pitch.cos());
+    }
+    if let Some(metres) = shown.distance_m {
+        let camera = &mut view.camera;
+        let away = camera.eye - camera.target;
+        let half_height = away.length() * (camera.fov_y_rad * 0.5).tan();
+        camera.eye = camera.target + away.normalize_or(Vec3::Z) * metres;
+        camera.fov_y_rad = 2.0 * (half_height / metres).atan();
+    }
+    view
 }
 
 fn paper(width: u32, height: u32) -> Image {

@@ -2,13 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use glam::Vec3;
+use glam::{Quat, Vec3};
 use hikage::golden::{Goldens, Tolerance};
 use hikage::import::{Limits, load_bytes};
 use hikage::motion::{Pose, Stance};
-use hikage::scene::{Framing, Image, Role, Scene};
+use hikage::scene::{Framing, HumanBone, Image, Role, Scene};
 use hikage::sdf::{Key, Mask, bake};
-use hikage::{Background, Gpu, GpuScene, Look, Output, Renderer, View, color::Srgb};
+use hikage::{Background, Channel, Gpu, GpuScene, Look, Output, Renderer, View, color::Srgb};
 use hikage_character::head::sdf;
 
 /// Another driver may round edges and ramps differently, never more. Wider than for spheres: her locks have outlines of a
@@ -45,6 +45,11 @@ struct Studio {
     faults: Vec<String>,
     /// Yaw and pitch of the light.
     light_deg: [f32; 2],
+    /// Turn of the head to her left.
+    head_deg: f32,
+    /// Distance of the camera, she being as large; that of the framing where `None`.
+    distance_m: Option<f32>,
+    channel: Channel,
 }
 
 impl Studio {
@@ -64,7 +69,7 @@ impl Studio {
         let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/golden");
         let bless_command = "cargo xtask goldens --bless {name}".to_owned();
         let goldens = Goldens { bless_command, ..Goldens::new(folder) };
-        Self { gpu, renderer, scene, gpu_scene, goldens, faults: Vec::new(), light_deg: [-24.7, 33.4] }
+        Self { gpu, renderer, scene, gpu_scene, goldens, faults: Vec::new(), light_deg: [-24.7, 33.4], head_deg: 0.0, distance_m: None, channel: Channel::Final }
     }
 
     fn check(
@@ -80,10 +85,13 @@ impl Studio {
         pose.set_stance(&self.scene, stance);
         let weights: Vec<(String, f32)> = expression.iter().map(|e| ((*e).to_owned(), 1.0)).collect();
         pose.set_expressions(&self.scene, &weights).expect("a known expression");
-        self.gpu_scene.set_pose(&self.gpu, &self.scene, &pose);
         let size = size.map(|side| side * FINER);
         let framed = View::framed_pose(&self.scene, &pose, framing, yaw_deg.to_radians(), size);
-        let mut view = View { background: Background::Color(Srgb([0xdf, 0xe7, 0xee])), ..framed };
+        if let Some(head) = self.scene.bone_node(HumanBone::Head) {
+            pose.locals[head].rotation *= Quat::from_rotation_y(self.head_deg.to_radians());
+        }
+        self.gpu_scene.set_pose(&self.gpu, &self.scene, &pose);
+        let mut view = View { channel: self.channel, background: Background::Color(Srgb([0xdf, 0xe7, 0xee])), ..framed };
         let [yaw, pitch] = self.light_deg.map(f32::to_radians);
         view.lights.directional.to_light = Vec3::new(yaw.sin() * pitch.cos(), pitch.sin(), yaw.cos() * pitch.cos());
         if framing == Framing::Face {
@@ -91,6 +99,13 @@ impl Studio {
             view.camera.fov_y_rad *= 0.52;
             view.camera.eye.y -= 0.046;
             view.camera.target.y -= 0.046;
+        }
+        if let Some(metres) = self.distance_m {
+            let camera = &mut view.camera;
+            let away = camera.eye - camera.target;
+            let half_height = away.length() * (camera.fov_y_rad * 0.5).tan();
+            camera.eye = camera.target + away.normalize() * metres;
+            camera.fov_y_rad = 2.0 * (half_height / metres).atan();
         }
         let picture = shrunk(&self.renderer.render(&mut self.gpu_scene, &view).expect("a picture"));
         if let Err(fault) = self.goldens.check(&format!("character-{name}"), &picture, &TOLERANCE) {
@@ -113,6 +128,35 @@ fn the_anime_look_is_as_before() {
     for (name, yaw, light) in [("front", 0.0, -30.0), ("left", 50.0, 20.0), ("back", 180.0, 160.0)] {
         studio.light_deg = [light, 35.0];
         studio.check(&format!("anime-portrait-{name}"), [256; 2], Framing::Portrait, yaw, Stance::Relaxed, None);
+    }
+    // Light from below and from high above.
+    for pitch in [-30, 60] {
+        studio.light_deg = [-60.0, pitch as f32];
+        studio.check(&format!("anime-pitch-{pitch}"), [192; 2], Framing::Face, 0.0, Stance::Rest, None);
+    }
+    // Her head turns under the same light: highlights of nose and lips, the line of the nose, eyes through hair.
+    studio.light_deg = [-30.0, 25.0];
+    for turn in [-65, -35, 35, 65] {
+        studio.head_deg = turn as f32;
+        studio.check(&format!("anime-head-{turn}"), [192; 2], Framing::Face, 0.0, Stance::Rest, None);
+    }
+    studio.head_deg = 0.0;
+    studio.distance_m = Some(10.0);
+    studio.check("anime-far", [192; 2], Framing::Portrait, 20.0, Stance::Relaxed, None);
+    studio.distance_m = None;
+    studio.light_deg = [-60.0, 25.0];
+    for (name, channel) in [
+        ("face-shadow", Channel::FaceShadow),
+        ("transition", Channel::Transition),
+        ("face-paint", Channel::FacePaint),
+        ("highlight", Channel::Highlight),
+        ("bangs-shadow", Channel::BangsShadow),
+        ("layer", Channel::Layer),
+        ("depth-rim", Channel::DepthRim),
+        ("eyes-through", Channel::EyesThrough),
+    ] {
+        studio.channel = channel;
+        studio.check(&format!("channel-{name}"), [128; 2], Framing::Face, 0.0, Stance::Rest, None);
     }
     assert!(studio.faults.is_empty(), "{}", studio.faults.join("\n"));
 }

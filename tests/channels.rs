@@ -1,0 +1,76 @@
+//! Debug channels of shading: each shows its own part of the anime look and nothing else.
+
+use hikage::import::{Limits, load_bytes};
+use hikage::scene::{Framing, Image, Scene};
+use hikage::{Channel, Look, Renderer, View};
+
+#[path = "support/scene.rs"]
+mod support;
+use support::{gpu, pixel};
+
+fn heroine() -> Scene {
+    let mut scene =
+        load_bytes("hikage.vrm", &hikage_character::file(), None, &Limits::default()).expect("the file is read");
+    Look::Anime { face: None }.apply(&mut scene);
+    scene
+}
+
+const SHADING: [Channel; 8] = [
+    Channel::FaceShadow,
+    Channel::Transition,
+    Channel::FacePaint,
+    Channel::Highlight,
+    Channel::BangsShadow,
+    Channel::Layer,
+    Channel::DepthRim,
+    Channel::EyesThrough,
+];
+
+/// Share of pixels that are not black.
+fn share(image: &Image) -> f64 {
+    let bright = image.pixels.chunks(4).filter(|p| p[..3].iter().any(|c| *c > 12)).count();
+    bright as f64 / (image.pixels.len() / 4) as f64
+}
+
+#[test]
+fn every_channel_shows_its_part() {
+    let (gpu, scene) = (gpu(), heroine());
+    let mut renderer = Renderer::new(&gpu).expect("a renderer");
+    let mut uploaded = renderer.upload(&scene).expect("an upload");
+    let mut view = View::framed(&scene, Framing::Face, 0.0, [256, 256]);
+    view.lights.directional.to_light = glam::Vec3::new(-0.9, 0.3, 0.24).normalize();
+    let before = renderer.render(&mut uploaded, &view).expect("a picture");
+    let pictures = SHADING.map(|channel| {
+        renderer.render(&mut uploaded, &View { channel, ..view.clone() }).expect("a channel")
+    });
+    // Face, transition, paint, highlight, bangs, layer, rim, eyes: how much of a portrait each covers.
+    let ranges = [(0.2, 0.9), (0.05, 0.4), (0.05, 0.4), (0.005, 0.2), (0.05, 0.4), (0.01, 0.08), (0.002, 0.12), (0.001, 0.05)];
+    for ((channel, picture), (low, high)) in SHADING.iter().zip(&pictures).zip(ranges) {
+        let share = share(picture);
+        assert!((low..high).contains(&share), "{channel:?} covers {share}");
+        assert!(picture.pixels.chunks(4).all(|p| p[3] == 255), "{channel:?} has a background");
+    }
+    for (i, a) in pictures.iter().enumerate() {
+        assert!(pictures[..i].iter().all(|b| a.pixels != b.pixels), "{:?} is another channel", SHADING[i]);
+    }
+    // White in light, dark in shade: the two sides of her face.
+    let [lit, dark] = [112, 146].map(|x| pixel(&pictures[0], x, 205)[0]);
+    assert!(lit > 240 && dark < 40, "{lit} and {dark}");
+    // The picture itself is as it was.
+    let after = renderer.render(&mut uploaded, &view).expect("a picture");
+    assert!(before == after, "a channel has changed the picture");
+}
+
+/// A plain model has none of it.
+#[test]
+fn a_plain_look_has_empty_channels() {
+    let gpu = gpu();
+    let scene = load_bytes("hikage.vrm", &hikage_character::file(), None, &Limits::default()).expect("the file is read");
+    let mut renderer = Renderer::new(&gpu).expect("a renderer");
+    let mut uploaded = renderer.upload(&scene).expect("an upload");
+    let view = View::framed(&scene, Framing::Face, 0.0, [96, 96]);
+    for channel in SHADING.into_iter().skip(1) {
+        let picture = renderer.render(&mut uploaded, &View { channel, ..view.clone() }).expect("a channel");
+        assert_eq!(share(&picture), 0.0, "{channel:?}");
+    }
+}

@@ -1,0 +1,245 @@
+//! Look files: what they change, and what they say about mistakes.
+
+use std::path::{Path, PathBuf};
+
+use hikage::LookFile;
+use hikage::import::{Limits, load_bytes};
+use hikage::material::{AngleMapping, OutlineWidth, Shading};
+use hikage::picture::write_png;
+use hikage::scene::{Image, Role, Scene};
+
+fn heroine() -> Scene {
+    load_bytes("hikage.vrm", &hikage_character::file(), None, &Limits::default()).expect("the file is read")
+}
+
+/// Small scene with a face, hair and a cloth, all without textures.
+fn doll() -> Scene {
+    use hikage::material::Material;
+    use hikage::scene::{Mesh, Node, Primitive};
+    let part = |material, role| Primitive { material, role, ..Primitive::default() };
+    let mesh = |name: &str, primitive| Mesh { name: name.into(), primitives: vec![primitive], ..Mesh::default() };
+    let material = |name: &str| Material { name: name.into(), ..Material::default() };
+    Scene {
+        nodes: (0..3).map(|mesh| Node { mesh: Some(mesh), ..Node::default() }).collect(),
+        meshes: vec![
+            mesh("Head", part(0, Role::Face)),
+            mesh("Hair_mae", part(1, Role::Hair)),
+            mesh("Dress", part(2, Role::Cloth)),
+        ],
+        materials: vec![material("Face"), material("Hair"), material("Dress")],
+        ..Scene::default()
+    }
+}
+
+fn apply(text: &str, scene: &mut Scene) -> Result<(), String> {
+    apply_at(Path::new("girl.look.toml"), text, scene)
+}
+
+fn apply_at(path: &Path, text: &str, scene: &mut Scene) -> Result<(), String> {
+    LookFile::parse(path, text).and_then(|look| look.apply(scene, None)).map_err(|e| e.to_string())
+}
+
+/// A folder of its own for one test.
+fn folder(name: &str) -> PathBuf {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("look-file-{name}"));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    folder
+}
+
+#[test]
+fn sections_change_what_they_name_and_nothing_else() {
+    let mut scene = doll();
+    let text = r##"
+        base = "plain"
+        [parts]
+        Hair_mae = "hair-front"
+        [light]
+        direction_deg = [90, 0]
+        intensity = 0.5
+        color = "#ff0000"
+        [bangs]
+        soft_width_mm = 4
+        direction_deg = [-30, 45]
+        [eyes_through]
+        opacity = 0.25
+        [role.hair-front]
+        double_sided = true
+        [role.hair-front.depth_rim]
+        width_px = 6
+        [role.face]
+        transition = { width = 0.3 }
+        [material.Dress.base]
+        color = "#808080"
+        [material.Dress.outline]
+        color = [0.1, 0.2, 0.3]
+        width = { screen = { height_ratio = 0.002 } }
+        [material.Dress.shading.toon]
+        shade_color = "#000000"
+    "##;
+    apply(text, &mut scene).expect("a good look");
+    assert_eq!(scene.meshes[1].primitives[0].role, Role::HairFront);
+    let lights = scene.lights.as_ref().expect("lights");
+    assert!((lights.directional.to_light - glam::Vec3::X).length() < 1e-6 && lights.directional.intensity == 0.5);
+    assert_eq!(lights.directional.color.0, [1.0, 0.0, 0.0]);
+    let bangs = scene.bangs.expect("bangs");
+    assert!((bangs.soft_width_m - 0.004).abs() < 1e-7);
+    assert!((bangs.direction_rad.expect("a direction")[0] + 30f32.to_radians()).abs() < 1e-6);
+    assert_eq!(bangs.hardness, hikage::scene::Bangs::default().hardness, "what is not named stays");
+    assert_eq!(scene.eyes_through.expect("eyes").opacity, 0.25);
+    let [face, hair, dress] = [&scene.materials[0], &scene.materials[1], &scene.materials[2]];
+    assert_eq!(face.transition.expect("a transition").width, 0.3);
+    assert!(hair.double_sided && hair.depth_rim.expect("a rim").width_px == 6.0 && face.depth_rim.is_none());
+    assert!((dress.base.color[0] - 0.2158).abs() < 1e-3 && dress.base.color[3] == 1.0, "{:?}", dress.base.color);
+    let outline = dress.outline.expect("an outline");
+    assert_eq!((outline.width, outline.color), (OutlineWidth::Screen { height_ratio: 0.002 }, [0.1, 0.2, 0.3]));
+    assert!(matches!(dress.shading, Shading::Toon(t) if t.shade_color == [0.0; 3] && t.toony == 0.9));
+}
+
+#[test]
+fn an_anime_look_is_the_base_and_false_switches_sections_off() {
+    let mut scene = heroine();
+    apply("[role.hair]\nhighlight = false\n[role.hair-front]\nhighlight = false\n[role.face]\nface_paint = false", &mut scene)
+        .expect("a good look");
+    let face = scene.materials.iter().find(|m| m.name == "Face").expect("a face");
+    assert!(face.face_shadow.is_some() && face.bangs_shadow.is_some() && face.face_paint.is_none());
+    assert!(scene.materials.iter().filter(|m| m.name.starts_with("Hair")).all(|m| m.highlight.is_none()));
+    let mut scene = heroine();
+    apply("eyes_through = false\nbangs = false", &mut scene).expect("a good look");
+    assert!(scene.eyes_through.is_none() && scene.bangs.is_none());
+}
+
+/// The text that stands for a whole scene changes nothing when it is read back.
+#[test]
+fn a_template_comes_back() {
+    let mut scene = heroine();
+    hikage::Look::Anime { face: None }.apply(&mut scene);
+    let text = LookFile::template(&scene);
+    assert!(text.contains("[role.face.face_shadow]") && text.contains("[material.HairBack.highlight]"), "{text}");
+    let before = scene.clone();
+    apply(&text, &mut scene).expect("a template is a good look");
+    for (after, before) in scene.materials.iter().zip(&before.materials) {
+        assert!(after == before, "{} changed", before.name);
+    }
+    assert_eq!((scene.bangs, scene.eyes_through), (before.bangs, before.eyes_through));
+}
+
+/// Every mistake names the file, the place, and the nearest thing that exists.
+#[test]
+fn mistakes_are_named_with_what_was_meant() {
+    let cases = [
+        ("bass = \"anime\"", &["girl.look.toml", "line 1", "\"bass\"", "\"base\""][..]),
+        ("\n\nbase = \"manga\"", &["line 3", "\"manga\"", "anime"]),
+        ("base = [", &["line 1"]),
+        ("[role.hairfront]\n", &["hairfront", "\"hair-front\""]),
+        ("[parts]\nHaed = \"face\"", &["parts", "\"Haed\"", "\"Head\""]),
+        ("[material.Fase]\n", &["material.\"Fase\"", "\"Face\""]),
+        ("[role.face.bangs_shadow]\nstrenth = 1", &["role.face", "\"strenth\"", "\"strength\""]),
+        ("[role.face]\nbangs_shadwo = {}", &["role.face", "\"bangs_shadwo\"", "\"bangs_shadow\""]),
+        ("[bangs]\nhardnes = 3", &["bangs", "\"hardnes\"", "\"hardness\""]),
+        ("[light]\ndirection_deg = [0]", &["light"]),
+        ("[light]\nyaw = 3", &["light", "\"yaw\""]),
+        ("bangs = true", &["bangs", "false to switch it off"]),
+        ("[role.face.base]\ncolor = \"red\"", &["role.face", "\"red\"", "#rrggbb"]),
+        ("[role.face.transition]\nwidth = nan", &["role.face", "transition.width", "not finite"]),
+        ("[role.face.transition]\nwidth = \"wide\"", &["role.face", "wide"]),
+        ("[role.face.base]\ntexture = \"../up.png\"", &["role.face", "../up.png", "leads out of the folder"]),
+        ("[role.face.base]\ntexture = \"/etc/passwd\"", &["leads out of the folder"]),
+        ("[role.face.base]\ntexture = \"none.png\"", &["none.png"]),
+        ("[role.face.face_shadow]\nmap = \"none.png\"", &["none.png"]),
+        ("[role.face.face_shadow]\nstack = []", &["either map or stack"]),
+        ("[role.face.face_shadow]\nstack = [{ fron = \"a.png\" }]", &["\"fron\"", "\"front\""]),
+        ("[role.face.face_shadow]\nsoftness_deg = true", &["softness_deg", "expected a number"]),
+    ];
+    for (text, expected) in cases {
+        let message = apply(text, &mut doll()).expect_err(text);
+        for part in expected {
+            assert!(message.contains(part), "{text:?}: {message:?} lacks {part:?}");
+        }
+        assert!(message.starts_with("girl.look.toml") || message.contains("none.png"), "{message}");
+        assert!(!message.contains('\n'), "{message}");
+    }
+}
+
+#[test]
+fn files_that_are_none_are_refused() {
+    let folder = folder("refused");
+    let message = |path: &Path| LookFile::read(path).expect_err("no look").to_string();
+    assert!(message(&folder).contains("not a regular file"));
+    assert!(message(&folder.join("none.look.toml")).contains("none.look.toml"));
+    let large = folder.join("large.look.toml");
+    std::fs::write(&large, "#".repeat((1 << 20) + 1)).expect("a file");
+    assert!(message(&large).contains("over the limit"));
+    std::fs::write(&large, [0xff, 0xfe, 0x00]).expect("a file");
+    assert!(message(&large).contains("UTF-8"), "{}", message(&large));
+    assert_eq!(LookFile::beside(Path::new("a/girl.v2.vrm")), Path::new("a/girl.v2.look.toml"));
+}
+
+fn grey(width: u32, height: u32, value: u8) -> Image {
+    let pixels = [value, value, value, 255].repeat((width * height) as usize);
+    Image { width, height, pixels, ..Image::default() }
+}
+
+/// Maps of a face by pitch, with second maps and masks; textures of any section.
+#[test]
+fn maps_and_textures_are_read_from_beside_the_file() {
+    let folder = folder("maps");
+    let file = folder.join("girl.look.toml");
+    for (name, value) in [("low.png", 10), ("high.png", 200), ("back.png", 90), ("masks.png", 255)] {
+        write_png(folder.join(name), &grey(4, 2, value)).expect("a picture");
+    }
+    let text = r#"
+        base = "plain"
+        [role.face.face_shadow]
+        layout = "mirrored"
+        angle = "cosine"
+        masks = "masks.png"
+        stack = [
+            { pitch_deg = -10, front = "low.png", back = "back.png" },
+            { pitch_deg = 40, front = "high.png", back = "back.png" },
+        ]
+        [role.face.base]
+        texture = "low.png"
+        [role.face.matcap]
+        texture = "high.png"
+        [role.face.highlight]
+        map = "high.png"
+    "#;
+    let mut scene = doll();
+    apply_at(&file, text, &mut scene).expect("a good look");
+    let face = &scene.materials[0];
+    let shadow = face.face_shadow.expect("a shadow");
+    assert_eq!(shadow.angle, AngleMapping::Cosine);
+    let map = &scene.face_maps[shadow.map];
+    assert_eq!((map.width, map.height, map.front.len(), map.back.len(), map.masks.len()), (4, 2, 2, 2, 8));
+    assert!((map.pitches_rad[1] - 40f32.to_radians()).abs() < 1e-6 && map.is_8_bit);
+    assert_eq!(map.front[0][0], [10 * 257, 10 * 257, 0, 65535], "one grey channel for both sides");
+    let image = |texture: usize| scene.images[scene.textures[texture].image].pixels[0];
+    assert_eq!(image(face.base.texture.expect("a texture").texture), 10);
+    assert_eq!((image(face.matcap.expect("a matcap").texture), image(face.highlight.expect("one").map.texture)), (200, 200));
+
+    // Maps of other sizes cannot lie in one array.
+    write_png(folder.join("wide.png"), &grey(8, 2, 1)).expect("a picture");
+    let wide = text.replace("front = \"high.png\"", "front = \"wide.png\"");
+    let message = apply_at(&file, &wide, &mut doll()).expect_err("sizes differ");
+    assert!(message.contains("other sizes"), "{message}");
+    let some = text.replace("{ pitch_deg = 40, front = \"high.png\", back = \"back.png\" }", "{ pitch_deg = 40, front = \"high.png\" }");
+    assert!(apply_at(&file, &some, &mut doll()).expect_err("one back map").contains("1 back maps for 2 pitches"));
+    let twice = text.replace("pitch_deg = 40", "pitch_deg = -10");
+    assert!(apply_at(&file, &twice, &mut doll()).expect_err("one pitch twice").contains("growing"));
+}
+
+/// 16 bits stay 16 bits.
+#[test]
+fn wide_maps_keep_their_bits() {
+    let folder = folder("wide");
+    let path = folder.join("wide.png");
+    let picture = image::ImageBuffer::<image::Luma<u16>, _>::from_fn(4, 1, |x, _| image::Luma([x as u16 * 1000 + 7]));
+    picture.save(&path).expect("a picture");
+    let mut scene = doll();
+    let text = "base = \"plain\"\n[role.face.face_shadow]\nmap = \"wide.png\"\nlayout = \"mirrored\"";
+    apply_at(&folder.join("girl.look.toml"), text, &mut scene).expect("a good look");
+    let map = &scene.face_maps[0];
+    assert!(!map.is_8_bit);
+    let green: Vec<u16> = map.front[0].iter().map(|t| t[1]).collect();
+    assert_eq!(green, [7, 1007, 2007, 3007]);
+}
