@@ -93,7 +93,7 @@ pub struct BenchReport {
 }
 
 const TIMEOUT: Duration = Duration::from_secs(120);
-const TIMED_PASSES: [&str; 2] = ["deform", "colour"];
+const TIMED_PASSES: [&str; 4] = ["deform", "bangs shadow", "depth", "colour"];
 
 /// A scene that is ready to be timed: frames and floor frames with the same triangles, targets and pose.
 pub struct Stage<'a> {
@@ -137,7 +137,7 @@ impl<'a> Stage<'a> {
     /// # Errors
     /// [`Error::Gpu`] where the adapter fails.
     pub fn frame(&mut self) -> Result<()> {
-        self.draw(|pass, stage| {
+        self.draw(true, |pass, stage| {
             let scene = &stage.uploaded;
             stage.renderer.opaque.encode(pass, &OpaqueInputs { scene });
             stage.renderer.outline.encode(pass, &OutlineInputs { scene });
@@ -151,25 +151,29 @@ impl<'a> Stage<'a> {
     /// # Errors
     /// [`Error::Gpu`] where the adapter fails.
     pub fn floor(&mut self) -> Result<()> {
-        self.draw(|pass, stage| stage.floor.encode(pass, &FloorInputs { scene: &stage.uploaded }))
+        self.draw(false, |pass, stage| stage.floor.encode(pass, &FloorInputs { scene: &stage.uploaded }))
     }
 
-    fn draw(&mut self, record: impl FnOnce(&mut wgpu::RenderPass<'_>, &Self)) -> Result<()> {
+    /// `prepare` says whether the passes before the colour pass are drawn and timed.
+    fn draw(&mut self, prepare: bool, record: impl FnOnce(&mut wgpu::RenderPass<'_>, &Self)) -> Result<()> {
         self.uploaded.set_pose(&self.gpu, self.scene, &self.pose);
         self.renderer.begin_frame(&mut self.uploaded, &self.view);
         let mut encoder =
             self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("bench") });
+        let timed = [true, prepare && self.uploaded.bangs.is_some(), prepare && self.uploaded.has_depth_rim, true];
         self.renderer.encode_deform(&mut encoder, &mut self.uploaded, self.clock.compute_writes());
-        self.renderer.encode_bangs_shadow(&mut encoder, &self.uploaded);
-        self.renderer.encode_depth(&mut encoder, &self.uploaded);
+        if prepare {
+            self.renderer.encode_bangs_shadow(&mut encoder, &self.uploaded, self.clock.render_writes(1));
+            self.renderer.encode_depth(&mut encoder, &self.uploaded, self.clock.render_writes(2));
+        }
         {
-            let writes = self.clock.render_writes();
+            let writes = self.clock.render_writes(3);
             let mut pass = self.renderer.begin_color_pass(&mut encoder, &self.view, &self.target, writes);
             let scene = &self.uploaded;
             draw_list::bind_scene(&mut pass, scene, self.renderer.color_frame_group(scene), &scene.character_group);
             record(&mut pass, self);
         }
-        self.clock.resolve(&mut encoder);
+        self.clock.resolve(&mut encoder, timed);
         self.gpu.queue.submit([encoder.finish()]);
         self.gpu.wait(TIMEOUT)
     }
@@ -199,7 +203,7 @@ pub fn run(gpu: &Gpu, scene: &Scene, options: &BenchOptions) -> Result<BenchRepo
         stage.frame()?;
         frames.push(milliseconds(start));
         for (list, ms) in passes.iter_mut().zip(stage.clock.read(gpu)?) {
-            list.push(ms);
+            list.extend(ms);
         }
         let start = Instant::now();
         stage.floor()?;
@@ -233,6 +237,8 @@ pub fn run(gpu: &Gpu, scene: &Scene, options: &BenchOptions) -> Result<BenchRepo
 struct Clock {
     queries: Option<(wgpu::QuerySet, wgpu::Buffer, wgpu::Buffer)>,
     period_ns: f64,
+    /// Which passes the last frame had.
+    timed: [bool; TIMED_PASSES.len()],
 }
 
 const QUERIES: u32 = 2 * TIMED_PASSES.len() as u32;
@@ -248,7 +254,7 @@ impl Clock {
             let buffer = |usage| {
                 gpu.device.create_buffer(&wgpu::BufferDescriptor {
                     label: Some("bench"),
-                    size: u64::from(QUERIES) * 8,
+                    size: TIMED_PASSES.len() as u64 * wgpu::QUERY_RESOLVE_BUFFER_ALIGNMENT,
                     usage,
                     mapped_at_creation: false,
                 })
@@ -256,7 +262,7 @@ impl Clock {
             let resolved = buffer(wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC);
             (set, resolved, buffer(wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ))
         });
-        Self { queries, period_ns: f64::from(gpu.queue.get_timestamp_period()) }
+        Self { queries, period_ns: f64::from(gpu.queue.get_timestamp_period()), timed: [false; TIMED_PASSES.len()] }
     }
 
     fn compute_writes(&self) -> Option<wgpu::ComputePassTimestampWrites<'_>> {
@@ -268,24 +274,30 @@ impl Clock {
         })
     }
 
-    fn render_writes(&self) -> Option<wgpu::RenderPassTimestampWrites<'_>> {
+    /// Timestamps of a pass, by its place in [`TIMED_PASSES`].
+    fn render_writes(&self, pass: u32) -> Option<wgpu::RenderPassTimestampWrites<'_>> {
         let (query_set, ..) = self.queries.as_ref()?;
         Some(wgpu::RenderPassTimestampWrites {
             query_set,
-            beginning_of_pass_write_index: Some(2),
-            end_of_pass_write_index: Some(3),
+            beginning_of_pass_write_index: Some(2 * pass),
+            end_of_pass_write_index: Some(2 * pass + 1),
         })
     }
 
-    fn resolve(&self, encoder: &mut wgpu::CommandEncoder) {
+    /// Reads the timestamps of the passes that were drawn; those of others must not be waited for.
+    fn resolve(&mut self, encoder: &mut wgpu::CommandEncoder, timed: [bool; TIMED_PASSES.len()]) {
+        self.timed = timed;
         if let Some((set, resolved, read)) = &self.queries {
-            encoder.resolve_query_set(set, 0..QUERIES, resolved, 0);
+            for (pass, _) in (0u32..).zip(timed).filter(|(_, timed)| *timed) {
+                let at = u64::from(pass) * wgpu::QUERY_RESOLVE_BUFFER_ALIGNMENT;
+                encoder.resolve_query_set(set, 2 * pass..2 * pass + 2, resolved, at);
+            }
             encoder.copy_buffer_to_buffer(resolved, 0, read, 0, resolved.size());
         }
     }
 
-    /// Milliseconds of each pass.
-    fn read(&self, gpu: &Gpu) -> Result<Vec<f64>> {
+    /// Milliseconds of each pass that was drawn.
+    fn read(&self, gpu: &Gpu) -> Result<Vec<Option<f64>>> {
         let Some((_, _, read)) = &self.queries else { return Ok(Vec::new()) };
         read.slice(..).map_async(wgpu::MapMode::Read, |_| ());
         gpu.wait(TIMEOUT)?;
@@ -295,7 +307,9 @@ impl Clock {
             bytemuck::pod_collect_to_vec(&mapped)
         };
         read.unmap();
-        Ok(ticks.chunks_exact(2).map(|t| t[1].saturating_sub(t[0]) as f64 * self.period_ns * 1e-6).collect())
+        let milliseconds = |t: &[u64]| t[1].saturating_sub(t[0]) as f64 * self.period_ns * 1e-6;
+        let of_passes = ticks.chunks_exact(wgpu::QUERY_RESOLVE_BUFFER_ALIGNMENT as usize / 8).zip(self.timed);
+        Ok(of_passes.map(|(t, timed)| timed.then(|| milliseconds(t))).collect())
     }
 }
 

@@ -520,7 +520,7 @@ fn depth_rims_have_a_width_a_threshold_and_a_side() {
         assert_close("rim", i, found, &expected, 1e-5);
     }
     let rows = vec![vec![0.02, 0.5], vec![0.04, 0.5], vec![0.05, 0.5], vec![1e9, 0.5], vec![1.0, -0.01], vec![1.0, 0.15]];
-    let body = "output[out] = depth_rim_step(input[base], 0.04) * depth_rim_side(input[base + 1u], vec2f(0.0, 0.3));";
+    let body = "output[out] = depth_rim_step(input[base], 0.04) * depth_rim_side(input[base + 1u], 1.0, vec2f(0.0, 0.3));";
     let found = run(&["depth_rim"], body, &rows, 1);
     for (i, (found, expected)) in found.iter().zip([0.0, 0.0, 1.0, 1.0, 0.0, 0.5]).enumerate() {
         assert_close("rim", i, found, &[expected], 1e-5);

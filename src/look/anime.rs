@@ -2,6 +2,8 @@
 
 use std::collections::BTreeSet;
 
+use glam::Vec3;
+
 use super::hair_band;
 use crate::material::{
     AlphaMode, BangsShadow, DepthRim, FacePaint, FaceShadow, Highlight, Layer, Material, Outline, OutlineWidth, Shading,
@@ -17,6 +19,7 @@ pub(super) fn apply(scene: &mut Scene, painted: Option<&ThresholdMap>) {
     scene.bangs = Some(Bangs::default());
     scene.eyes_through = Some(EyesThrough::default());
     outlines(scene);
+    round_hair(scene);
     hair(scene);
     faces(scene, painted);
     eyes(scene);
@@ -48,15 +51,44 @@ fn outlines(scene: &mut Scene) {
     for index in drawn {
         let material = &mut scene.materials[index];
         if material.alpha.mode != AlphaMode::Blend {
-            let width = OutlineWidth::Screen { height_ratio: 0.0011 };
+            let width = OutlineWidth::Screen { height_ratio: 0.0016 };
             material.outline = Some(Outline { width, color: [0.33, 0.22, 0.25], ..Outline::default() });
+        }
+    }
+}
+
+/// How far the normals of hair are turned to those of a round head.
+const ROUNDED: f32 = 0.6;
+
+/// Lets light fall on hair as on one round shape, so that its shade lies in masses and not in a stripe for each lock: round
+/// the head above its middle, round its axis below.
+fn round_hair(scene: &mut Scene) {
+    let Some((low, high)) = scene.face_box(None) else { return };
+    let middle = (low + high) * 0.5;
+    let world = scene.rest_world_from_nodes();
+    let carriers: Vec<(usize, usize)> =
+        scene.nodes.iter().enumerate().filter_map(|(n, node)| Some((node.mesh?, n))).collect();
+    let mut done = BTreeSet::new();
+    for (mesh, node) in carriers.into_iter().filter(|(mesh, _)| done.insert(*mesh)) {
+        let matrix = scene.rest_placement(&world, node);
+        let back = matrix.inverse();
+        let Some(mesh) = scene.meshes.get_mut(mesh).filter(|_| back.is_finite()) else { continue };
+        for part in mesh.primitives.iter_mut().filter(|p| matches!(p.role, Role::Hair | Role::HairFront)) {
+            for (normal, position) in part.normals.iter_mut().zip(&part.positions) {
+                let out = matrix.transform_point3(Vec3::from(*position)) - middle;
+                let round = out.with_y(out.y.max(0.0)).normalize_or(Vec3::Y);
+                let own = Vec3::from(*normal);
+                let turned = own.lerp(back.transform_vector3(round).normalize_or(own), ROUNDED);
+                *normal = turned.normalize_or(own).to_array();
+            }
         }
     }
 }
 
 /// A band that follows view and light: painted, where the file carries one, else round the head.
 fn hair(scene: &mut Scene) {
-    let rim = DepthRim::default();
+    // A lock before the hair of the back is no contour.
+    let rim = DepthRim { threshold_m: 0.15, width_px: 3.0, ..DepthRim::default() };
     let mut bare = BTreeSet::new();
     for role in [Role::HairFront, Role::Hair] {
         for index in materials_of(scene, role) {
@@ -66,6 +98,7 @@ fn hair(scene: &mut Scene) {
                 map,
                 second_strength: 0.5,
                 second_color: [0.86, 0.84, 1.0],
+                in_shade: 0.08,
                 ..Highlight::default()
             });
             // Wisps of alpha are drawn, not lit.
@@ -87,13 +120,14 @@ fn faces(scene: &mut Scene, painted: Option<&ThresholdMap>) {
         let material = &mut scene.materials[index];
         material.bangs_shadow = Some(BangsShadow { color: shade, ..BangsShadow::default() });
         material.transition = Some(Transition::default());
-        material.depth_rim = Some(DepthRim { strength: 0.6, ..DepthRim::default() });
+        material.depth_rim = Some(DepthRim { strength: 0.5, threshold_m: 0.15, width_px: 3.0, ..DepthRim::default() });
         material.highlight = material.authored_highlight.map(|map| Highlight {
             map,
             strength: 0.9,
             light_v: 0.0,
             view_v: 0.0,
             turn_u: 0.012,
+            in_shade: 0.0,
             facing: 0.35,
             ..Highlight::default()
         });

@@ -198,12 +198,12 @@ impl LookFile {
         Ok(())
     }
 
-    /// The sections of a scene as a look file that changes nothing, for artists to start from: every number of every
-    /// section of each role.
+    /// The anime look of a scene that has it as a look file, for artists to start from: every number of every section that
+    /// it adds.
     #[must_use]
     pub fn template(scene: &Scene) -> String {
         let mut root = Table::new();
-        root.insert("base".to_owned(), "plain".into());
+        root.insert("base".to_owned(), "anime".into());
         let section = |value: Option<Table>| value.map(Value::Table);
         let (bangs, through) = (scene.bangs.and_then(table_of), scene.eyes_through.and_then(table_of));
         root.extend(section(bangs).map(|t| ("bangs".to_owned(), t)));

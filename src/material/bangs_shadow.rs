@@ -2,8 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-/// How a surface shows the shadow that front hair casts on it. The hair, the direction and the softness are those of
-/// [`Bangs`](crate::scene::Bangs).
+/// How a surface shows the shadow that bangs, hands, clothes and other characters cast on it. Casters, direction and
+/// softness are those of [`Bangs`](crate::scene::Bangs). Where a [`FaceShadow`](super::FaceShadow) leaves a material to
+/// normal shading, as on the neck, there is none.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct BangsShadow {

@@ -11,19 +11,21 @@ use serde::{Deserialize, Serialize};
 pub struct DepthRim {
     /// Colour that is added in the light's colour, linear. Range 0..1. Default: a cool white, (0.55, 0.56, 0.6).
     pub color: [f32; 3],
+    /// How far the rim takes the surface's own colour. Range 0..1. Default: 0.7.
+    pub tint: f32,
     /// Strength. Range 0..1. Default: 1.
     pub strength: f32,
     /// Width, pixels of a picture 1024 high; it grows with the picture. Range 0..64. Default: 4.
     pub width_px: f32,
     /// Least step in depth, metres. Default: 0.04.
     pub threshold_m: f32,
-    /// N·L between which it fades in: only the side towards the light has a rim. Range -1..1, growing.
-    /// Default: (0, 0.3).
+    /// N·L between which it fades in; where the contour itself looks away from the light there is none either. Range -1..1,
+    /// growing; with both below -1 it is all round. Default: (0, 0.3).
     pub light_side: [f32; 2],
 }
 
 impl Default for DepthRim {
     fn default() -> Self {
-        Self { color: [0.55, 0.56, 0.6], strength: 1.0, width_px: 4.0, threshold_m: 0.04, light_side: [0.0, 0.3] }
+        Self { color: [0.55, 0.56, 0.6], tint: 0.7, strength: 1.0, width_px: 4.0, threshold_m: 0.04, light_side: [0.0, 0.3] }
     }
 }

@@ -15,7 +15,7 @@ pub struct FacePaint {
     pub blush_color: [f32; 3],
     /// Strength of the blush. Range 0..1. Default: 0.6.
     pub blush_strength: f32,
-    /// What the colour is multiplied by on lines, linear. Range 0..1. Default: (0.5, 0.2, 0.18).
+    /// What the colour is multiplied by on lines, linear. Range 0..1. Default: (0.72, 0.34, 0.31).
     pub line_color: [f32; 3],
     /// Strength of the lines in shade. Range 0..1. Default: 0.6.
     pub shadow_line_strength: f32,
@@ -32,7 +32,7 @@ impl Default for FacePaint {
             map: TextureRef::default(),
             blush_color: [0.96, 0.62, 0.58],
             blush_strength: 0.6,
-            line_color: [0.5, 0.2, 0.18],
+            line_color: [0.72, 0.34, 0.31],
             shadow_line_strength: 0.6,
             nose_line_strength: 0.8,
             nose_line_yaw_rad: [40f32.to_radians(), 65f32.to_radians()],

@@ -60,7 +60,7 @@ pub struct Material {
     pub transition: Option<Transition>,
     /// Blush and lines. Default: none.
     pub face_paint: Option<FacePaint>,
-    /// Shadow of the front hair on it. Default: none.
+    /// Shadow of bangs and of what else stands before the face. Default: none.
     pub bangs_shadow: Option<BangsShadow>,
     /// Painted highlight that moves. Default: none.
     pub highlight: Option<Highlight>,

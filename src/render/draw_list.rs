@@ -23,8 +23,10 @@ pub(crate) struct Draw {
     /// Writes its depth for rims.
     pub depth: Option<wgpu::RenderPipeline>,
     pub flags: SurfaceFlags,
-    /// Where it casts the shadow of the bangs.
+    /// Draws it into the map of the bangs: always where it belongs to another character, for its own face if it casts on
+    /// that.
     pub bangs: Option<wgpu::RenderPipeline>,
+    pub casts_on_face: bool,
     /// Where it casts the shadow of lids and lashes.
     pub lids: Option<wgpu::RenderPipeline>,
     pub mark: Mark,

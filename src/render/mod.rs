@@ -189,10 +189,10 @@ impl Renderer {
         self.begin_frame(scene, view);
         // Skinned and morphed vertices; only where the pose has changed.
         self.encode_deform(encoder, scene, None);
-        // Front hair from the light of its shadow on the face.
-        self.encode_bangs_shadow(encoder, scene);
+        // What casts on the face, from the light of that shadow.
+        self.encode_bangs_shadow(encoder, scene, None);
         // Depth of all surfaces, where a rim reads it.
-        self.encode_depth(encoder, scene);
+        self.encode_depth(encoder, scene, None);
         // One colour pass: opaque, outlines and transparent share their targets, so samples are resolved once.
         let mut pass = self.begin_color_pass(encoder, view, target, None);
         draw_list::bind_scene(&mut pass, scene, self.color_frame_group(scene), &scene.character_group);
@@ -247,16 +247,26 @@ impl Renderer {
         }
     }
 
-    pub(crate) fn encode_bangs_shadow(&self, encoder: &mut wgpu::CommandEncoder, scene: &GpuScene) {
+    pub(crate) fn encode_bangs_shadow(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        scene: &GpuScene,
+        timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
+    ) {
         if let Some(map) = &scene.bangs {
             let inputs = BangsShadowInputs { scene, frame: &self.frame_group, reduce: &self.bangs_near, map };
-            self.bangs_shadow.encode(encoder, &inputs);
+            self.bangs_shadow.encode(encoder, &inputs, timestamps);
         }
     }
 
-    pub(crate) fn encode_depth(&self, encoder: &mut wgpu::CommandEncoder, scene: &GpuScene) {
+    pub(crate) fn encode_depth(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        scene: &GpuScene,
+        timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
+    ) {
         if let (true, Some(depth)) = (scene.has_depth_rim, &self.frame_depth) {
-            self.prepass.encode_depth(encoder, scene, &self.frame_group, &depth.view);
+            self.prepass.encode_depth(encoder, scene, &self.frame_group, &depth.view, timestamps);
         }
     }
 

@@ -99,6 +99,8 @@ pub struct MaterialUniform {
     pub second_strength: f32,
     pub second_color: [f32; 3],
     pub highlight_breakup: f32,
+    pub depth_rim_tint: f32,
+    pub padding_rim: [f32; 3],
     pub bangs_color: [f32; 3],
     pub bangs_strength: f32,
     pub bangs_edges: [f32; 2],
@@ -135,6 +137,9 @@ pub struct CharacterUniform {
     pub bangs_row_u: [f32; 4],
     pub bangs_row_v: [f32; 4],
     pub bangs_row_depth: [f32; 4],
+    pub bangs_world_row_u: [f32; 4],
+    pub bangs_world_row_v: [f32; 4],
+    pub bangs_world_row_depth: [f32; 4],
     pub bangs_hardness: f32,
     pub bangs_bias: f32,
     pub through_opacity: f32,
@@ -322,6 +327,8 @@ impl MaterialUniform {
             second_strength: highlight.second_strength,
             second_color: highlight.second_color,
             highlight_breakup: highlight.breakup,
+            depth_rim_tint: rim.tint,
+            padding_rim: [0.0; 3],
             bangs_color: bangs.color,
             bangs_strength: bangs.strength,
             bangs_edges: bangs.edges,
@@ -348,17 +355,19 @@ impl MaterialUniform {
 }
 
 impl CharacterUniform {
-    /// Uniform of a character whose head is moved so from its rest, with the head's middle at rest and the light in her
-    /// space.
+    /// Uniform of a character whose head is moved so from its rest, with the head's middle at rest, the light in her space,
+    /// and what takes the world to that.
     pub(crate) fn new(
         head: Mat4,
         middle: Vec3,
         bangs: Option<&BangsMap>,
         through: Option<EyesThrough>,
         to_light: Vec3,
+        from_world: Mat4,
     ) -> Self {
         let [row_u, row_v, row_depth] = bangs.map_or([glam::Vec4::ZERO; 3], |b| b.rows(head, to_light));
         let [hardness, bias] = bangs.map_or([0.0; 2], BangsMap::test);
+        let of_world = |row: glam::Vec4| (from_world.transpose() * row).to_array();
         // A bone that is scaled to nothing has no rotation.
         let axis = |axis: Vec3| head.transform_vector3(axis).normalize_or(axis).to_array();
         Self {
@@ -371,6 +380,9 @@ impl CharacterUniform {
             bangs_row_u: row_u.to_array(),
             bangs_row_v: row_v.to_array(),
             bangs_row_depth: row_depth.to_array(),
+            bangs_world_row_u: of_world(row_u),
+            bangs_world_row_v: of_world(row_v),
+            bangs_world_row_depth: of_world(row_depth),
             bangs_hardness: hardness,
             bangs_bias: bias,
             through_opacity: through.map_or(0.0, |t| t.opacity),

@@ -259,7 +259,7 @@ impl Renderer {
     fn bangs_map(&self, scene: &Scene, geometry: &Geometry) -> Option<BangsMap> {
         let bangs = scene.bangs?;
         let (low, high) = scene.face_box(None)?;
-        let casts = geometry.parts.iter().any(|p| p.role == Role::HairFront);
+        let casts = geometry.parts.iter().any(|p| casts_on_face(p.role));
         let receives = scene.materials.iter().any(|m| m.bangs_shadow.is_some());
         let lids = scene.materials.iter().any(|m| m.bangs_shadow.is_some_and(|b| b.lids));
         // Half as wide again as the head: bangs hang before it.
@@ -279,7 +279,8 @@ impl Renderer {
         for part in parts {
             let Some(material) = scene.materials.get(part.material) else { continue };
             let blend = material.alpha.mode == AlphaMode::Blend;
-            let casts_bangs = scene.bangs.is_some() && part.role == Role::HairFront && !blend;
+            let in_map = scene.bangs.is_some() && !blend;
+            let casts_on_face = in_map && casts_on_face(part.role);
             let casts_lids = has_lids && matches!(part.role, Role::Face | Role::Lash) && !blend;
             let mark = if has_marks && !blend {
                 mark(part.role)
@@ -291,7 +292,7 @@ impl Renderer {
                 && !blend
                 && last.material == part.material
                 && last.indices.end == part.indices.start
-                && last.bangs.is_some() == casts_bangs
+                && last.casts_on_face == casts_on_face
                 && last.lids.is_some() == casts_lids
                 && last.mark == mark
             {
@@ -319,7 +320,8 @@ impl Renderer {
                 mark,
                 through: (mark == Mark::Eyes)
                     .then(|| self.eyes_through.pipeline(&self.gpu, &self.layouts, flags, material)),
-                bangs: casts_bangs.then(|| self.bangs_shadow.pipeline(&self.gpu, &self.layouts, flags, material)),
+                casts_on_face,
+                bangs: in_map.then(|| self.bangs_shadow.pipeline(&self.gpu, &self.layouts, flags, material)),
                 lids: casts_lids.then(|| self.bangs_shadow.pipeline(&self.gpu, &self.layouts, flags, material)),
             });
         }
@@ -329,6 +331,11 @@ impl Renderer {
         draws.sort_by_key(|d| (d.blend, has_marks.then_some(d.mark), if d.blend { 0 } else { layer(d) }));
         draws
     }
+}
+
+/// Whether a part of this role casts the shadow on its own face. Skin of the face and what lies on it do not.
+fn casts_on_face(role: Role) -> bool {
+    matches!(role, Role::HairFront | Role::Skin | Role::Cloth | Role::Accessory)
 }
 
 /// What a part of this role has to do with eyes through hair.
@@ -385,10 +392,10 @@ impl GpuScene {
 
     /// Writes what of the character depends on the light. A crowd shares the shadow of its first one's bangs.
     pub(crate) fn light(&self, gpu: &Gpu, view: &View) {
-        let to_world = view.instances.first().copied().unwrap_or_default();
-        let to_light = to_world.inverse().transform_vector3(view.lights.directional.to_light).normalize_or(Vec3::Z);
+        let from_world = view.instances.first().copied().unwrap_or_default().inverse();
+        let to_light = from_world.transform_vector3(view.lights.directional.to_light).normalize_or(Vec3::Z);
         let uniform =
-            CharacterUniform::new(self.head, self.rig.head_middle, self.bangs.as_ref(), self.eyes_through, to_light);
+            CharacterUniform::new(self.head, self.rig.head_middle, self.bangs.as_ref(), self.eyes_through, to_light, from_world);
         gpu.queue.write_buffer(&self.character, 0, bytemuck::bytes_of(&uniform));
     }
 

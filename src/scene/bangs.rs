@@ -1,16 +1,17 @@
 //! What casts the shadow of the bangs.
 
-/// The light of the bangs' shadow: front hair drawn from an orthographic camera that is fitted to the head.
+/// The light of the bangs' shadow: what casts on the face drawn from an orthographic camera that is fitted to the head.
 ///
-/// Hair is every part of the role [`HairFront`](super::Role::HairFront); materials with a
+/// Casters are the parts of the roles [`HairFront`](super::Role::HairFront), [`Skin`](super::Role::Skin) (hands),
+/// [`Cloth`](super::Role::Cloth) and [`Accessory`](super::Role::Accessory), and all of other characters; materials with a
 /// [`BangsShadow`](crate::material::BangsShadow) receive it. The texels of its map have a fixed size in metres, so that
 /// neither zoom nor field of view changes the edge.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Bangs {
     /// Where the shadow's light stands, in the frame of the head: angle to the character's left, and height over the
-    /// front, radians. `None`: where the directional light stands, held within 45 degrees to the sides and between 10
-    /// and 60 degrees of height, so that the shadow stays one of bangs. Default: `None`.
+    /// front, radians. `None`: where the directional light stands, held within 35 degrees to the sides and between 10
+    /// and 40 degrees of height, so that the shadow stays one of bangs and off the cheeks. Default: `None`.
     pub direction_rad: Option<[f32; 2]>,
     /// Width of the soft edge, metres. Range 0.0005..0.05. Default: 0.003.
     pub soft_width_m: f32,

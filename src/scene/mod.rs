@@ -53,7 +53,7 @@ pub struct Scene {
     pub character: Option<Character>,
     /// Lights that a look asks for; [`View::framed`](crate::View::framed) takes them. `None`: the default ones.
     pub lights: Option<Lights>,
-    /// Light of the shadow that front hair casts on the face. `None`: it casts none.
+    /// Light of the shadow that bangs and others cast on the face. `None`: nothing does.
     pub bangs: Option<Bangs>,
     /// Eyes and brows through hair. `None`: hair hides them.
     pub eyes_through: Option<EyesThrough>,

@@ -10,6 +10,10 @@ struct Character {
     bangs_row_u: vec4f,
     bangs_row_v: vec4f,
     bangs_row_depth: vec4f,
+    // The same from the world, for what belongs to other characters.
+    bangs_world_row_u: vec4f,
+    bangs_world_row_v: vec4f,
+    bangs_world_row_depth: vec4f,
     // Per unit of depth, and in units of depth.
     bangs_hardness: f32,
     bangs_bias: f32,
@@ -29,13 +33,20 @@ struct Character {
 @group(1) @binding(2) var bangs_near: texture_2d_array<f32>;
 @group(1) @binding(3) var bangs_sampler: sampler;
 
-// Layers of the map: front hair, and lids with lashes.
+// Layers of the map: what casts on the face, and lids with lashes on the eyes.
 const BANGS_LAYER: i32 = 0;
 const LIDS_LAYER: i32 = 1;
 
 fn bangs_from_character(position: vec3f) -> vec3f {
     let p = vec4f(position, 1.0);
     return vec3f(dot(character.bangs_row_u, p), dot(character.bangs_row_v, p), dot(character.bangs_row_depth, p));
+}
+
+fn bangs_from_world(position: vec3f) -> vec3f {
+    let p = vec4f(position, 1.0);
+    return vec3f(
+        dot(character.bangs_world_row_u, p), dot(character.bangs_world_row_v, p), dot(character.bangs_world_row_depth, p)
+    );
 }
 
 // Share of light that a layer lets through to a place of the map. What lies beyond its border is lit, and so is what the
@@ -45,23 +56,25 @@ fn bangs_lit(at: vec3f, layer: i32, wanted: bool) -> f32 {
     let block = clamp(vec2i(at.xy * f32(side)) / BANGS_BLOCK, vec2i(0), vec2i(textureDimensions(bangs_near)) - 1);
     let nearest = textureLoad(bangs_near, block, layer, 0).r;
     let is_outside = any(at.xy <= vec2f(0.0)) || any(at.xy >= vec2f(1.0));
-    // Nothing hangs before it: every tap would let all light through. A count of 0 rather than a branch, since software
-    // rasterizers walk both sides of branches but leave loops early.
+    // Where nothing hangs before it every tap would let all light through. A count of 0 rather than a branch: software
+    // rasterizers walk both sides of branches, but leave loops early.
     let is_lit = is_outside || nearest + character.bangs_bias >= at.z;
-    let rows = select(BANGS_TAPS, 0, is_lit || !wanted);
+    let taps = select(BANGS_TAPS * BANGS_TAPS / 4, 0, is_lit || !wanted);
     let p = at.xy * f32(side) - 0.5;
     let first = vec2i(floor(p)) - 1;
     let f = fract(p);
-    var lit = select(0.0, 1.0, rows == 0);
-    for (var y = 0; y < rows; y += 2) {
-        for (var x = 0; x < BANGS_TAPS; x += 2) {
-            // Four texels about a corner: (0, 1), (1, 1), (1, 0), (0, 0). Those at the border stand for what lies beyond.
-            let corner = (vec2f(first + vec2i(x, y)) + 1.0) / f32(side);
-            let depth = textureGather(0, bangs_map, bangs_sampler, corner, layer);
-            let tap = esm_taps(depth, at.z, character.bangs_hardness, character.bangs_bias);
-            let across = vec2f(bangs_weight(x, f.x), bangs_weight(x + 1, f.x));
-            lit += bangs_weight(y, f.y) * dot(across, tap.wz) + bangs_weight(y + 1, f.y) * dot(across, tap.xy);
-        }
+    var lit = select(0.0, 1.0, taps == 0);
+    for (var i = 0; i < taps; i++) {
+        // Four texels about a corner: (0, 1), (1, 1), (1, 0), (0, 0). Those at the border stand for what lies beyond.
+        let x = i % (BANGS_TAPS / 2) * 2;
+        let y = i / (BANGS_TAPS / 2) * 2;
+        let corner = (vec2f(first + vec2i(x, y)) + 1.0) / f32(side);
+        let depth = textureGather(0, bangs_map, bangs_sampler, corner, layer);
+        let tap = esm_taps(depth, at.z, character.bangs_hardness, character.bangs_bias);
+        let across = vec2f(bangs_weight(x, f.x), bangs_weight(x + 1, f.x));
+        lit += bangs_weight(y, f.y) * dot(across, tap.wz) + bangs_weight(y + 1, f.y) * dot(across, tap.xy);
     }
-    return lit;
+    // What the map does not reach is lit, without a seam at its border.
+    let border = min(min(at.x, 1.0 - at.x), min(at.y, 1.0 - at.y));
+    return mix(1.0, lit, smoothstep(0.0, 0.1, border));
 }

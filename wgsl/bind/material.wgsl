@@ -56,6 +56,7 @@ struct Material {
     second_strength: f32,
     second_color: vec3f,
     highlight_breakup: f32,
+    depth_rim_tint: f32,
     bangs_color: vec3f,
     bangs_strength: f32,
     bangs_edges: vec2f,

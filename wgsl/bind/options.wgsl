@@ -21,7 +21,7 @@ override ALPHA_MASK: bool = false;
 override ALPHA_COVERAGE: bool = false;
 // The shade of a face comes from a threshold map.
 override FACE_SHADOW: bool = false;
-// Front hair casts its shadow on it.
+// Bangs and others cast their shadow on it.
 override BANGS_SHADOW: bool = false;
 // Its map has several pitches of the light; maps for light from the side to the back; masks for side and back.
 override FACE_STACK: bool = false;

@@ -12,7 +12,7 @@ import package::lib::bangs::bangs_factor;
 import package::lib::depth_rim::{depth_rim_offset, depth_rim_resolved, depth_rim_side, depth_rim_step};
 import package::lib::face_paint::face_paint_factor;
 import package::lib::face_shadow::{
-    face_back_share, face_light_angle, face_lit, face_masked, face_measure, face_shading, face_side, face_stack_place,
+    face_back_share, face_lit, face_masked, face_shading, face_side, face_stack_place,
 };
 import package::lib::highlight::highlight_broken;
 import package::lib::light::{accumulated_n_dot_l, distance_attenuation, luminance, spot_attenuation};
@@ -75,18 +75,19 @@ struct SurfaceInput {
     tangent: vec4f,
     uv: vec4f,
     color: vec4f,
-    // Direction to the directional light in the frame of the face, and how far the line of the nose shows.
+    // Directional light in the frame of the face: x to the character's left, height (radians), angle over pi, and what
+    // thresholds are compared with.
     face_light: vec4f,
     // Place in the map of the bangs' shadow.
     bangs: vec3f,
-    // Movement of the highlight, and what is left of it.
-    highlight: vec3f,
+    // Movement of the highlight, what is left of it, and how far the line of the nose shows.
+    highlight: vec4f,
 }
 
 // Input of `surface_texel` where nothing is shaded.
 fn texel_input(uv: vec4f, color: vec4f) -> SurfaceInput {
     let none = vec3f(0.0);
-    return SurfaceInput(none, none, none, vec4f(0.0), uv, color, vec4f(0.0), none, none);
+    return SurfaceInput(none, none, none, vec4f(0.0), uv, color, vec4f(0.0), none, vec4f(0.0));
 }
 
 // UVs of one texture: animation first, then KHR_texture_transform (MToon, "Compatibility with KHR_texture_transform").
@@ -222,8 +223,11 @@ fn shade_surface(options: SurfaceOptions, in: SurfaceInput) -> vec4f {
     if options.transition {
         soft = smoothstep(-material.transition_width, material.transition_width, n_dot_l + shift);
     }
+    // Share of the surface that is face: neck and body take no shadow of bangs.
+    var of_face = 1.0;
     if options.face_shadow {
         let face = face_shading_at(options, in);
+        of_face = 1.0 - face.region;
         shading = face_shading(shading, face.lit, face.region, face.strength * directional);
         if options.transition {
             soft = face_shading(soft, face.soft, face.region, face.strength * directional);
@@ -239,7 +243,7 @@ fn shade_surface(options: SurfaceOptions, in: SurfaceInput) -> vec4f {
             face_paint_texture, face_paint_sampler, texture_uv(options, uv, material.face_paint_uv)
         ).rgb;
         paint = face_paint_factor(
-            drawn, 1.0 - shading, in.face_light.w * material.nose_line_strength, material.blush_color,
+            drawn, 1.0 - shading, in.highlight.w * material.nose_line_strength, material.blush_color,
             material.blush_strength, material.line_color, material.shadow_line_strength
         );
         base = vec4f(base.rgb * paint, base.a);
@@ -253,7 +257,7 @@ fn shade_surface(options: SurfaceOptions, in: SurfaceInput) -> vec4f {
     var bangs = 1.0;
     if options.bangs_shadow {
         // What is in shade already gets no darker.
-        let share = shading * directional;
+        let share = shading * directional * of_face;
         bangs = bangs_lit(in.bangs, BANGS_LAYER, share > 0.0);
         if options.lid_shadow {
             bangs = min(bangs, bangs_lit(in.bangs, LIDS_LAYER, share > 0.0));
@@ -313,6 +317,9 @@ fn shade_surface(options: SurfaceOptions, in: SurfaceInput) -> vec4f {
     var contour = 0.0;
     if options.depth_rim {
         let seen = (frame.view_from_world * vec4f(normal, 0.0)).xy;
+        let light_seen = (frame.view_from_world * vec4f(frame.to_light, 0.0)).xy;
+        // 1e-12: a normal or a light towards the viewer has no direction there.
+        let outwards = dot(seen, light_seen) * inverseSqrt(max(dot(seen, seen) * dot(light_seen, light_seen), 1e-12));
         let height = f32(textureDimensions(frame_depth).y);
         let offset = depth_rim_offset(seen, material.depth_rim_width, height);
         let here = frame.near / max(in.pixel.z, 1e-12);
@@ -322,9 +329,10 @@ fn shade_surface(options: SurfaceOptions, in: SurfaceInput) -> vec4f {
         let far_step = distance_at(vec2i(floor(in.pixel.xy + offset + half_px))) - here;
         let threshold = material.depth_rim_threshold;
         contour = 0.5 * (depth_rim_step(near_step, threshold) + depth_rim_step(far_step, threshold))
-            * depth_rim_side(dot(normal, frame.to_light), material.depth_rim_side)
+            * depth_rim_side(dot(normal, frame.to_light), outwards, material.depth_rim_side)
             * depth_rim_resolved(material.depth_rim_width, height);
-        color += material.depth_rim_color * frame.light_color * contour;
+        let own = mix(vec3f(1.0), base.rgb, material.depth_rim_tint);
+        color += material.depth_rim_color * own * frame.light_color * contour;
     }
     if options.channel != 0u {
         color = channel_color(options, shading, tint, paint, shine, bangs, contour);
@@ -365,18 +373,21 @@ struct FaceLight {
 }
 
 fn face_shading_at(options: SurfaceOptions, in: SurfaceInput) -> FaceLight {
-    let light = in.face_light.xyz;
-    let angle = face_light_angle(light, material.face_overhead_fade);
-    let measure = face_measure(angle, material.face_cosine);
-    let place = face_stack_place(asin(clamp(light.y, -1.0, 1.0)), material.face_pitches, material.face_pitch_count);
+    let light_x = in.face_light.x;
+    let angle = in.face_light.z;
+    let measure = in.face_light.w;
+    var place = vec2f(0.0);
+    if options.face_stack {
+        place = face_stack_place(in.face_light.y, material.face_pitches, material.face_pitch_count);
+    }
     var map = face_map_at(options, in.uv.xy, 0, place);
-    var tau = face_side(map.rg, light.x);
+    var tau = face_side(map.rg, light_x);
     var lit = face_lit(tau, measure, material.face_softness);
     var soft = face_lit(tau, measure, material.transition_width);
     if options.face_back {
         let back = face_map_at(options, in.uv.xy, i32(material.face_pitch_count), place);
         let share = face_back_share(angle);
-        tau = face_side(back.rg, light.x);
+        tau = face_side(back.rg, light_x);
         lit = mix(lit, face_lit(tau, measure, material.face_softness), share);
         soft = mix(soft, face_lit(tau, measure, material.transition_width), share);
         map = vec4f(map.rg, mix(map.ba, back.ba, share));
@@ -384,8 +395,8 @@ fn face_shading_at(options: SurfaceOptions, in: SurfaceInput) -> FaceLight {
     if options.face_masks {
         let layer = i32(material.face_pitch_count) * select(1, 2, options.face_back);
         let masks = textureSample(face_texture, face_sampler, in.uv.xy, layer);
-        let side = face_side(masks.rg, light.x);
-        let back = face_side(masks.ba, light.x);
+        let side = face_side(masks.rg, light_x);
+        let back = face_side(masks.ba, light_x);
         lit = face_masked(lit, side, back, angle);
         soft = face_masked(soft, side, back, angle);
     }

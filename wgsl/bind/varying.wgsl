@@ -5,6 +5,7 @@ import package::bind::material::material;
 import package::bind::surface::{SurfaceInput, SurfaceOptions};
 import package::bind::vertex::{VertexInput, bitangent_sign, world_direction, world_position, world_rotated};
 import package::lib::eyes_through::pulled_depth;
+import package::lib::face_shadow::{face_light_angle, face_measure};
 import package::lib::highlight::{highlight_fade, highlight_offset};
 
 struct Varying {
@@ -16,7 +17,7 @@ struct Varying {
     @location(4) color: vec4f,
     @location(5) @interpolate(flat) face_light: vec4f,
     @location(6) bangs: vec3f,
-    @location(7) @interpolate(flat) highlight: vec3f,
+    @location(7) @interpolate(flat) highlight: vec4f,
 }
 
 fn surface_varying(options: SurfaceOptions, v: VertexInput) -> Varying {
@@ -25,22 +26,25 @@ fn surface_varying(options: SurfaceOptions, v: VertexInput) -> Varying {
     if options.normal_map {
         tangent = vec4f(world_direction(v, v.frame.y), bitangent_sign(v.frame.y));
     }
-    var face_light = vec4f(0.0, 0.0, 1.0, 0.0);
+    var face_light = vec4f(0.0);
     if options.face_shadow {
-        face_light = vec4f(in_face_frame(v, frame.to_light), 0.0);
+        let light = in_face_frame(v, frame.to_light);
+        let angle = face_light_angle(light, material.face_overhead_fade);
+        let pitch = asin(clamp(light.y, -1.0, 1.0));
+        face_light = vec4f(light.x, pitch, angle, face_measure(angle, material.face_cosine));
     }
+    var highlight = vec4f(0.0);
     if options.face_paint {
         let view = in_face_frame(v, normalize(frame.eye - world_position(v, character.head)));
         // atan2(0, 0) is left to the driver.
         let yaw = atan2(abs(view.x), select(1e-6, view.z, abs(view.z) > 1e-6));
         let fade = material.nose_line_yaw;
-        face_light.w = smoothstep(fade.x, max(fade.y, fade.x + 1e-4), yaw);
+        highlight.w = smoothstep(fade.x, max(fade.y, fade.x + 1e-4), yaw);
     }
     var bangs = vec3f(0.0);
     if options.bangs_shadow {
         bangs = bangs_from_character(v.position);
     }
-    var highlight = vec3f(0.0);
     if options.highlight {
         let view = normalize(frame.eye - world_position(v, character.head));
         let forward = world_rotated(v, character.face_forward);
@@ -49,7 +53,7 @@ fn surface_varying(options: SurfaceOptions, v: VertexInput) -> Varying {
             view, frame.to_light, forward, up, material.highlight_turn, material.highlight_light, material.highlight_view
         );
         let left = highlight_fade(dot(view, forward), dot(view, frame.to_light), material.highlight_facing);
-        highlight = vec3f(offset, left);
+        highlight = vec4f(offset, left, highlight.w);
     }
     var clip = frame.clip_from_world * vec4f(position, 1.0);
     if options.layered {

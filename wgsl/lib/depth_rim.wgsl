@@ -13,9 +13,10 @@ fn depth_rim_step(step_m: f32, threshold_m: f32) -> f32 {
     return saturate((step_m - t) / (0.25 * t));
 }
 
-// Share of the rim by the side of the light; `side` are values of N.L between which it fades in.
-fn depth_rim_side(n_dot_l: f32, side: vec2f) -> f32 {
-    return smoothstep(side.x, max(side.y, side.x + 1e-4), n_dot_l);
+// Share of the rim by the side of the light; `side` are values of N.L between which it fades in. `outwards` is the cosine
+// between the contour's direction and the light's as they are seen: a lock whose shaded side borders on nothing has none.
+fn depth_rim_side(n_dot_l: f32, outwards: f32, side: vec2f) -> f32 {
+    return smoothstep(side.x, max(side.y, side.x + 1e-4), min(n_dot_l, outwards));
 }
 
 // Share that is left in small pictures: a rim of less than a pixel and a half would break into dots.

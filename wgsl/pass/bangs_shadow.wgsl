@@ -1,9 +1,9 @@
-// Depth of the front hair from the light of the bangs' shadow.
-import package::bind::character::{bangs_from_character, character};
+// Depth of what casts on the face, from the light of the bangs' shadow.
+import package::bind::character::{bangs_from_character, bangs_from_world};
 import package::bind::options::surface_options;
 import package::bind::material::material;
 import package::bind::surface::{animated_uv, surface_texel, texel_input};
-import package::bind::vertex::VertexInput;
+import package::bind::vertex::{VertexInput, world_position};
 
 override ALPHA_TEST: bool = false;
 
@@ -15,8 +15,13 @@ struct BangsVarying {
 }
 
 @vertex
-fn vs_main(v: VertexInput) -> BangsVarying {
-    let at = bangs_from_character(v.position);
+fn vs_main(v: VertexInput, @builtin(instance_index) instance: u32) -> BangsVarying {
+    var at = bangs_from_character(v.position);
+    if instance > 0u {
+        at = bangs_from_world(world_position(v, v.position));
+    }
+    // What stands before the map's range casts from its front.
+    at.z = max(at.z, 0.0);
     return BangsVarying(vec4f(at.x * 2.0 - 1.0, 1.0 - at.y * 2.0, at.z, 1.0), at.z, v.uv, v.color);
 }
 

@@ -20,7 +20,7 @@ struct ThroughVarying {
     @location(4) color: vec4f,
     @location(5) @interpolate(flat) face_light: vec4f,
     @location(6) bangs: vec3f,
-    @location(7) @interpolate(flat) highlight: vec3f,
+    @location(7) @interpolate(flat) highlight: vec4f,
     @location(8) @interpolate(flat) opacity: f32,
 }
 

@@ -57,7 +57,12 @@ impl BangsNearPass {
     }
 
     /// Finds the nearest depths of one layer.
-    pub fn encode(&self, encoder: &mut wgpu::CommandEncoder, inputs: &BangsNearInputs<'_>) {
+    pub fn encode(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        inputs: &BangsNearInputs<'_>,
+        timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
+    ) {
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("bangs near"),
             color_attachments: &[Some(wgpu::RenderPassColorAttachment {
@@ -66,6 +71,7 @@ impl BangsNearPass {
                 resolve_target: None,
                 ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::WHITE), store: wgpu::StoreOp::Store },
             })],
+            timestamp_writes: timestamps,
             ..Default::default()
         });
         pass.set_pipeline(&self.pipeline);

@@ -1,4 +1,4 @@
-//! Depth of the front hair, seen from the light of the bangs' shadow.
+//! Depth of what casts on the face, seen from the light of the bangs' shadow.
 
 use std::collections::HashMap;
 
@@ -34,7 +34,7 @@ pub(crate) struct BangsMap {
     /// Middle and half width of the camera's picture at rest, character space, metres.
     pub middle: Vec3,
     pub half: f32,
-    /// The map as shaders read it: front hair, then lids and lashes where something receives their shadow.
+    /// The map as shaders read it: what casts on the face, then lids and lashes where something receives their shadow.
     pub view: wgpu::TextureView,
     /// Nearest depths of its blocks.
     pub near: wgpu::TextureView,
@@ -49,6 +49,9 @@ struct Layer {
     near: wgpu::TextureView,
     near_input: wgpu::BindGroup,
 }
+
+/// Pipeline and instances of what casts.
+type Caster = (wgpu::RenderPipeline, std::ops::Range<u32>);
 
 /// What the pass reads and writes.
 pub(crate) struct BangsShadowInputs<'a> {
@@ -91,7 +94,7 @@ impl BangsMap {
             let light = to_light.normalize_or(forward);
             let (x, y, z) = (light.dot(left), light.dot(up), light.dot(forward));
             let held = |angle: f32, low: f32, high: f32| angle.clamp(low.to_radians(), high.to_radians());
-            [held(x.atan2(z), -45.0, 45.0), held(y.clamp(-1.0, 1.0).asin(), 10.0, 60.0)]
+            [held(x.atan2(z), -35.0, 35.0), held(y.clamp(-1.0, 1.0).asin(), 10.0, 40.0)]
         });
         let direction = left * (yaw.sin() * pitch.cos()) + up * pitch.sin() + forward * (yaw.cos() * pitch.cos());
         let right = up.cross(direction).normalize_or(left);
@@ -193,12 +196,27 @@ impl BangsShadowPass {
         self.pipelines.entry(flags).or_insert_with(make).clone()
     }
 
-    /// Draws the front hair of one character, and her lids and lashes.
-    pub fn encode(&self, encoder: &mut wgpu::CommandEncoder, inputs: &BangsShadowInputs<'_>) {
-        let casters: [fn(&Draw) -> Option<&wgpu::RenderPipeline>; 2] = [|d| d.bangs.as_ref(), |d| d.lids.as_ref()];
-        for (layer, caster) in inputs.map.layers.iter().zip(casters) {
-            Self::encode_layer(encoder, inputs, &layer.map, caster);
-            inputs.reduce.encode(encoder, &BangsNearInputs { map: &layer.near_input, near: &layer.near });
+    /// Draws what casts on the face of the first character: front hair, clothes, hands, and all of the others; then her lids
+    /// and lashes.
+    pub fn encode(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        inputs: &BangsShadowInputs<'_>,
+        timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
+    ) {
+        let crowd = inputs.scene.instance_rows.len() as u32;
+        let on_face = |d: &Draw| Some((d.bangs.clone()?, u32::from(!d.casts_on_face)..crowd));
+        let lids = |d: &Draw| Some((d.lids.clone()?, 0..1));
+        let casters: [&dyn Fn(&Draw) -> Option<Caster>; 2] = [&on_face, &lids];
+        let last = inputs.map.layers.len() - 1;
+        for (i, (layer, caster)) in inputs.map.layers.iter().zip(casters).enumerate() {
+            // From the beginning of the first pass to the end of the last.
+            let begin = timestamps.clone().filter(|_| i == 0);
+            let end = timestamps.clone().filter(|_| i == last);
+            let begin = begin.map(|t| wgpu::RenderPassTimestampWrites { end_of_pass_write_index: None, ..t });
+            let end = end.map(|t| wgpu::RenderPassTimestampWrites { beginning_of_pass_write_index: None, ..t });
+            Self::encode_layer(encoder, inputs, &layer.map, caster, begin);
+            inputs.reduce.encode(encoder, &BangsNearInputs { map: &layer.near_input, near: &layer.near }, end);
         }
     }
 
@@ -206,7 +224,8 @@ impl BangsShadowPass {
         encoder: &mut wgpu::CommandEncoder,
         inputs: &BangsShadowInputs<'_>,
         layer: &wgpu::TextureView,
-        caster: fn(&Draw) -> Option<&wgpu::RenderPipeline>,
+        caster: &dyn Fn(&Draw) -> Option<Caster>,
+        timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
     ) {
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("bangs shadow"),
@@ -222,16 +241,19 @@ impl BangsShadowPass {
                 depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(1.0), store: wgpu::StoreOp::Discard }),
                 stencil_ops: None,
             }),
+            timestamp_writes: timestamps,
             ..Default::default()
         });
         // The map itself cannot be read while it is drawn.
         let character = &inputs.scene.character_group_without_map;
         draw_list::bind_scene(&mut pass, inputs.scene, inputs.frame, character);
         for draw in &inputs.scene.draws {
-            if let Some(pipeline) = caster(draw) {
-                pass.set_pipeline(pipeline);
+            if let Some((pipeline, instances)) = caster(draw)
+                && !instances.is_empty()
+            {
+                pass.set_pipeline(&pipeline);
                 pass.set_bind_group(2, &inputs.scene.material_groups[draw.material], &[]);
-                pass.draw_indexed(draw.indices.clone(), 0, 0..1);
+                pass.draw_indexed(draw.indices.clone(), 0, instances);
             }
         }
     }

@@ -86,6 +86,7 @@ impl PrepassPass {
         scene: &GpuScene,
         frame: &wgpu::BindGroup,
         depth: &wgpu::TextureView,
+        timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
     ) {
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("depth"),
@@ -94,6 +95,7 @@ impl PrepassPass {
                 depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store }),
                 stencil_ops: None,
             }),
+            timestamp_writes: timestamps,
             ..Default::default()
         });
         draw_list::bind_scene(&mut pass, scene, frame, &scene.character_group);

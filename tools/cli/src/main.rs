@@ -7,6 +7,7 @@ mod compare_references;
 mod deadline;
 mod failure;
 mod inspect;
+mod look;
 mod output;
 mod render;
 mod setup;
@@ -51,6 +52,8 @@ enum Command {
     Render(render::Args),
     /// Draw a character from all sides and with every expression, on one sheet.
     Sheet(sheet::Args),
+    /// Write a look file with every number of the anime look, to start from. Needs no GPU.
+    Look(look::Args),
     /// Tell what a model, an image or a shader holds, and what will look wrong. Needs no GPU.
     Inspect(inspect::Args),
     /// Measure the time of a frame, against the same meshes drawn unlit.
@@ -98,6 +101,7 @@ fn run(command: Command) -> Result<(), Failure> {
     match command {
         Command::Render(args) => render::run(&args),
         Command::Sheet(args) => sheet::run(&args),
+        Command::Look(args) => look::run(&args),
         Command::Inspect(args) => inspect::run(&args),
         Command::Bench(args) => bench::run(&args),
         Command::Adapters(args) => adapters::run(&args),

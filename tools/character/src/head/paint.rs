@@ -147,11 +147,11 @@ pub(super) fn face_paint() -> Picture {
     let mut c = Canvas::new(1024, 1024, Some(0x000000));
     for side in [-1.0, 1.0] {
         c.glow(at(side * 0.043, 1.3755), radii(0.02, 0.0105), 0xff0000, 0.4);
-        // Strokes under the eye, slanting outwards as a pen is held.
-        for i in 0..5 {
-            let x = side * (0.033 + 0.0042 * i as f32);
-            let line = polyline(&[at(x + side * 0.0012, 1.3805), at(x - side * 0.0014, 1.3745)], false);
-            c.stroke(&line, 0x00ff00, 0.75, 0.0006 / UV_METRES);
+        // The strokes of the blush, drawn again and longer.
+        for i in 0..4 {
+            let x = side * (0.0385 + 0.0042 * i as f32);
+            let line = polyline(&[at(x + 0.0006, 1.3776), at(x - 0.0028, 1.3714)], false);
+            c.stroke(&line, 0x00ff00, 0.75, 0.0009 / UV_METRES);
         }
         // From between the eyes down to the tip.
         let ridge = [at(side * 0.0042, 1.4), at(side * 0.0031, 1.39), at(side * 0.0026, 1.381), at(side * 0.003, 1.3745)];
