@@ -3,7 +3,7 @@
 use glam::{Mat4, Vec3};
 use hikage::color::LinearRgb;
 use hikage::import::{Limits, load_bytes};
-use hikage::scene::{Ambient, Bangs, Framing, Image, Scene};
+use hikage::scene::{Ambient, Bangs, Framing, Image, Role, Scene};
 use hikage::{Look, Renderer, View};
 
 #[path = "support/scene.rs"]
@@ -124,4 +124,54 @@ fn an_artists_direction_overrides_the_light_and_softness_widens_the_edge() {
     };
     let (hard, soft) = (half_shadow(0.0015), half_shadow(0.02));
     assert!(soft > 2 * hard, "{hard} pixels of half shadow, {soft} with a soft edge");
+}
+
+/// Hands, clothes and other characters cast on the face too, and a face before which nothing stands is as without a map.
+#[test]
+fn others_cast_on_the_face_and_the_face_not_on_itself() {
+    let (gpu, mut scene) = (gpu(), heroine());
+    for part in scene.meshes.iter_mut().flat_map(|m| &mut m.primitives) {
+        if !matches!(part.role, Role::Face | Role::Lash | Role::Eye | Role::EyeWhite) {
+            part.role = Role::Other;
+        }
+    }
+    for material in &mut scene.materials {
+        material.bangs_shadow = material.bangs_shadow.map(|b| hikage::material::BangsShadow { lids: false, ..b });
+    }
+    let view = face(&scene, 192);
+    let bare = render(&gpu, &without(&scene), &view);
+    // Something else must cast, or there is no map at all: a card far below.
+    let card = |scene: &Scene, at: Vec3, half: f32, role: Role| {
+        let mut scene = scene.clone();
+        let mut square = support::square([at.x, at.y], half, at.z);
+        (square.role, square.material) = (role, scene.materials.len());
+        scene.materials.push(hikage::material::Material { double_sided: true, ..Default::default() });
+        scene.meshes.push(hikage::scene::Mesh { primitives: vec![square], ..Default::default() });
+        let mesh = Some(scene.meshes.len() - 1);
+        scene.nodes.push(hikage::scene::Node { mesh, ..Default::default() });
+        scene
+    };
+    let away = card(&scene, Vec3::new(0.0, -5.0, 0.0), 0.01, Role::Cloth);
+    assert!(render(&gpu, &away, &view).pixels == bare.pixels, "the face casts on itself");
+
+    // A hand before the forehead, out of the picture's way: above and nearer to the light.
+    let head = scene.bone_node(hikage::scene::HumanBone::Head).expect("a head");
+    let head = scene.rest_world_from_nodes()[head].w_axis.truncate();
+    let toward = Vec3::new(0.3, 0.6, 0.75).normalize() * 0.35;
+    for role in [Role::Skin, Role::Cloth, Role::Accessory] {
+        let hand = card(&scene, head + Vec3::new(0.0, 0.08, 0.06) + toward, 0.05, role);
+        let share = shadowed(&render(&gpu, &hand, &view), &bare);
+        assert!(share > 0.01, "{role:?} darkens {share} of the picture");
+    }
+
+    // Another character between the first one and the light.
+    let pair = |scene: &Scene| {
+        let mut view = view.clone();
+        view.instances = vec![Mat4::IDENTITY, Mat4::from_translation(Vec3::new(0.12, 0.12, 0.5))];
+        // Seen from below the other one's hair, past her.
+        view.camera.eye = head + Vec3::new(-0.5, 0.0, 0.5);
+        render(&gpu, scene, &view)
+    };
+    let share = shadowed(&pair(&away), &pair(&without(&away)));
+    assert!(share > 0.005, "another character darkens {share} of the picture");
 }

@@ -40,11 +40,11 @@ fn every_channel_shows_its_part() {
     let mut view = View::framed(&scene, Framing::Face, 0.0, [256, 256]);
     view.lights.directional.to_light = glam::Vec3::new(-0.9, 0.3, 0.24).normalize();
     let before = renderer.render(&mut uploaded, &view).expect("a picture");
-    let pictures = SHADING.map(|channel| {
-        renderer.render(&mut uploaded, &View { channel, ..view.clone() }).expect("a channel")
-    });
+    let pictures =
+        SHADING.map(|channel| renderer.render(&mut uploaded, &View { channel, ..view.clone() }).expect("a channel"));
     // Face, transition, paint, highlight, bangs, layer, rim, eyes: how much of a portrait each covers.
-    let ranges = [(0.2, 0.9), (0.05, 0.4), (0.05, 0.4), (0.005, 0.2), (0.05, 0.4), (0.01, 0.08), (0.002, 0.12), (0.001, 0.05)];
+    let ranges =
+        [(0.2, 0.9), (0.05, 0.4), (0.05, 0.4), (0.005, 0.2), (0.05, 0.4), (0.01, 0.08), (0.002, 0.12), (0.001, 0.05)];
     for ((channel, picture), (low, high)) in SHADING.iter().zip(&pictures).zip(ranges) {
         let share = share(picture);
         assert!((low..high).contains(&share), "{channel:?} covers {share}");
@@ -65,7 +65,8 @@ fn every_channel_shows_its_part() {
 #[test]
 fn a_plain_look_has_empty_channels() {
     let gpu = gpu();
-    let scene = load_bytes("hikage.vrm", &hikage_character::file(), None, &Limits::default()).expect("the file is read");
+    let scene =
+        load_bytes("hikage.vrm", &hikage_character::file(), None, &Limits::default()).expect("the file is read");
     let mut renderer = Renderer::new(&gpu).expect("a renderer");
     let mut uploaded = renderer.upload(&scene).expect("an upload");
     let view = View::framed(&scene, Framing::Face, 0.0, [96, 96]);

@@ -14,7 +14,12 @@ const COLORS: [[f32; 3]; 4] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]
 
 fn flat(color: [f32; 3], layer: Option<Layer>) -> Material {
     let [r, g, b] = color;
-    Material { base: Base { color: [r, g, b, 1.0], texture: None }, shading: Shading::Unlit, layer, ..Material::default() }
+    Material {
+        base: Base { color: [r, g, b, 1.0], texture: None },
+        shading: Shading::Unlit,
+        layer,
+        ..Material::default()
+    }
 }
 
 /// Four cards in one plane, as large as an eye and cut into triangles otherwise; the file's order says nothing.
@@ -72,7 +77,9 @@ fn cards_in_one_plane_keep_their_order_at_any_distance() {
 #[test]
 fn a_layer_alone_changes_no_pixel() {
     let gpu = gpu();
-    let picture = |layer| render(&gpu, &scene(vec![(square([0.0, 0.0], 0.4, 0.0), flat([0.2, 0.5, 0.7], layer))]), &view(64, 2.0));
+    let picture = |layer| {
+        render(&gpu, &scene(vec![(square([0.0, 0.0], 0.4, 0.0), flat([0.2, 0.5, 0.7], layer))]), &view(64, 2.0))
+    };
     assert!(picture(None) == picture(Some(Layer { index: 3, stay_lit: 0.0 })), "a layer is seen");
 }
 
@@ -96,7 +103,10 @@ fn lights_stay_lit_on_request() {
 #[test]
 fn another_picture_takes_the_place_of_a_card() {
     let gpu = gpu();
-    let mut cards = scene(vec![(square([0.0, 0.0], 0.9, 0.0), flat([1.0; 3], None)), (square([9.0, 0.0], 0.1, 0.0), flat([1.0; 3], None))]);
+    let mut cards = scene(vec![
+        (square([0.0, 0.0], 0.9, 0.0), flat([1.0; 3], None)),
+        (square([9.0, 0.0], 0.1, 0.0), flat([1.0; 3], None)),
+    ]);
     let map: TextureRef = texture(&mut cards, 4, 4, |_, _| [255, 0, 0, 255]);
     cards.materials[0].base.texture = Some(map);
     let mut renderer = Renderer::new(&gpu).expect("a renderer");
@@ -119,7 +129,8 @@ fn another_picture_takes_the_place_of_a_card() {
 #[test]
 fn lids_shade_the_eyes() {
     let gpu = gpu();
-    let mut with = load_bytes("hikage.vrm", &hikage_character::file(), None, &Limits::default()).expect("the file is read");
+    let mut with =
+        load_bytes("hikage.vrm", &hikage_character::file(), None, &Limits::default()).expect("the file is read");
     Look::Anime { face: None }.apply(&mut with);
     let mut without = with.clone();
     for material in &mut without.materials {

@@ -3,8 +3,10 @@
 use glam::{Mat4, Quat, Vec3};
 use hikage::color::LinearRgb;
 use hikage::import::{Limits, load_bytes};
+use hikage::material::{AngleMapping, FaceShadow};
 use hikage::motion::Pose;
 use hikage::scene::{Ambient, Framing, HumanBone, Image, Role, Scene};
+use hikage::sdf::FaceMap;
 use hikage::{Gpu, Look, Renderer, View};
 
 #[path = "support/scene.rs"]
@@ -45,7 +47,7 @@ fn portrait(scene: &Scene) -> View {
 
 /// Pixels of the cheeks, mouth and chin, before which no hair hangs.
 fn cheeks(image: &Image) -> Vec<[u8; 4]> {
-    (135..165).flat_map(|y| (76..116).map(move |x| (x, y))).map(|(x, y)| support::pixel(image, x, y)).collect()
+    (135..162).flat_map(|y| (76..116).map(move |x| (x, y))).map(|(x, y)| support::pixel(image, x, y)).collect()
 }
 
 fn apart(a: &[[u8; 4]], b: &[[u8; 4]], by: u8) -> usize {
@@ -118,7 +120,11 @@ fn the_shadow_turns_with_the_head() {
 /// Over half a turn of the light in steps of 1 degree no texel of the face lights up again, nor does one jump.
 #[test]
 fn a_sweep_of_the_light_never_goes_back() {
-    let (gpu, scene) = (gpu(), heroine());
+    let (gpu, mut scene) = (gpu(), heroine());
+    for material in &mut scene.materials {
+        // Near the neck it follows the normals, which may turn to the light.
+        material.transition = None;
+    }
     let view = portrait(&scene);
     let mut renderer = Renderer::new(&gpu).expect("a renderer");
     let mut uploaded = renderer.upload(&scene).expect("an upload");
@@ -136,4 +142,99 @@ fn a_sweep_of_the_light_never_goes_back() {
         last = Some(now);
     }
     assert!(brightest - darkest > 30, "nothing darkened: {darkest} to {brightest}");
+}
+
+/// Her face under a map of one texel a layer.
+fn with_map(map: FaceMap) -> Scene {
+    let mut scene = heroine();
+    for face_map in &mut scene.face_maps {
+        *face_map = map.clone();
+    }
+    for material in &mut scene.materials {
+        // Nothing but the map: no tint, no drawing.
+        (material.transition, material.face_paint) = (None, None);
+        material.face_shadow = material.face_shadow.map(|f| FaceShadow { softness: 0.1, ..f });
+    }
+    scene
+}
+
+/// One texel: the same threshold on both sides, no normal shading, full strength.
+fn texel(tau: f32) -> Vec<[u16; 4]> {
+    let code = (tau * 65535.0).round() as u16;
+    vec![[code, code, 0, u16::MAX]]
+}
+
+/// Mean green of the cheeks under light from an angle and a height.
+fn cheek(gpu: &Gpu, scene: &Scene, yaw_deg: f32, pitch_deg: f32) -> f32 {
+    let mut view = portrait(scene);
+    let (yaw, pitch) = (yaw_deg.to_radians(), pitch_deg.to_radians());
+    view.lights.directional.to_light = Vec3::new(yaw.sin() * pitch.cos(), pitch.sin(), yaw.cos() * pitch.cos());
+    let pixels = cheeks(&draw(gpu, scene, &Pose::rest(scene), &view));
+    pixels.iter().map(|p| f32::from(p[1])).sum::<f32>() / pixels.len() as f32
+}
+
+/// The height of the light chooses between the maps of a stack, and mixes their thresholds between them; 8 and 16 bits.
+#[test]
+fn a_stack_of_maps_follows_the_height_of_the_light() {
+    let gpu = gpu();
+    for is_8_bit in [false, true] {
+        let map = FaceMap {
+            width: 1,
+            height: 1,
+            pitches_rad: vec![0.0, 40f32.to_radians()],
+            front: vec![texel(0.8), texel(0.2)],
+            is_8_bit,
+            ..FaceMap::default()
+        };
+        let scene = with_map(map);
+        // At 90 degrees the measure is 1/2: the lower map is lit there, the upper one dark, their mean at its border.
+        let [low, middle, high] = [0.0, 20.0, 40.0].map(|pitch| cheek(&gpu, &scene, 90.0, pitch));
+        assert!(low > middle + 10.0 && middle > high + 10.0, "{low}, {middle}, {high}; 8 bits: {is_8_bit}");
+        let even = (cheek(&gpu, &scene, 90.0, -60.0) - low).abs();
+        assert!(even < 8.0, "below the lowest map: {even} apart");
+    }
+}
+
+/// Behind 100 degrees the second map rules, before 80 the first; masks darken their own sector and side alone.
+#[test]
+fn second_maps_and_masks_rule_their_sectors() {
+    let gpu = gpu();
+    let map = FaceMap {
+        width: 1,
+        height: 1,
+        pitches_rad: vec![0.0],
+        front: vec![texel(0.95)],
+        back: vec![texel(0.3)],
+        ..FaceMap::default()
+    };
+    let scene = with_map(map.clone());
+    let at = |scene: &Scene, yaw: f32| cheek(&gpu, scene, yaw, 0.0);
+    let (lit, dark) = (at(&scene, 30.0), at(&scene, 140.0));
+    assert!(lit > dark + 20.0, "{lit} and {dark}");
+    assert!((at(&scene, 75.0) - lit).abs() < 1.0 && (at(&scene, 105.0) - dark).abs() < 1.0);
+    assert!((at(&scene, -75.0) - at(&scene, 75.0)).abs() < 1.0, "sides differ");
+
+    // Light from the left is masked at the side, light from the right behind.
+    let masked = with_map(FaceMap { back: Vec::new(), masks: vec![[u16::MAX, 0, 0, u16::MAX]], ..map });
+    assert!((at(&masked, 30.0) - lit).abs() < 1.0 && (at(&masked, -30.0) - lit).abs() < 1.0, "a mask acts in front");
+    assert!((at(&masked, 90.0) - dark).abs() < 1.0 && (at(&masked, -90.0) - lit).abs() < 1.0, "at the side");
+    assert!(at(&masked, 150.0) > dark + 5.0 && (at(&masked, -150.0) - dark).abs() < 1.0, "behind");
+}
+
+/// Thresholds may be measured by the cosine of the angle: the same map turns dark elsewhere.
+#[test]
+fn the_cosine_mapping_moves_the_border() {
+    let gpu = gpu();
+    let map = FaceMap { width: 1, height: 1, pitches_rad: vec![0.0], front: vec![texel(0.25)], ..FaceMap::default() };
+    let mut scene = with_map(map);
+    for material in &mut scene.materials {
+        material.face_shadow = material.face_shadow.map(|f| FaceShadow { softness: 0.01, ..f });
+    }
+    let linear = [40.0, 50.0].map(|yaw| cheek(&gpu, &scene, yaw, 0.0));
+    for material in &mut scene.materials {
+        material.face_shadow = material.face_shadow.map(|f| FaceShadow { angle: AngleMapping::Cosine, ..f });
+    }
+    // (1 - cos 60) / 2 = 1/4.
+    let cosine = [55.0, 65.0].map(|yaw| cheek(&gpu, &scene, yaw, 0.0));
+    assert!(linear[0] > linear[1] + 20.0 && cosine[0] > cosine[1] + 20.0, "{linear:?}, {cosine:?}");
 }

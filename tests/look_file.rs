@@ -98,8 +98,11 @@ fn sections_change_what_they_name_and_nothing_else() {
 #[test]
 fn an_anime_look_is_the_base_and_false_switches_sections_off() {
     let mut scene = heroine();
-    apply("[role.hair]\nhighlight = false\n[role.hair-front]\nhighlight = false\n[role.face]\nface_paint = false", &mut scene)
-        .expect("a good look");
+    apply(
+        "[role.hair]\nhighlight = false\n[role.hair-front]\nhighlight = false\n[role.face]\nface_paint = false",
+        &mut scene,
+    )
+    .expect("a good look");
     let face = scene.materials.iter().find(|m| m.name == "Face").expect("a face");
     assert!(face.face_shadow.is_some() && face.bangs_shadow.is_some() && face.face_paint.is_none());
     assert!(scene.materials.iter().filter(|m| m.name.starts_with("Hair")).all(|m| m.highlight.is_none()));
@@ -214,14 +217,20 @@ fn maps_and_textures_are_read_from_beside_the_file() {
     assert_eq!(map.front[0][0], [10 * 257, 10 * 257, 0, 65535], "one grey channel for both sides");
     let image = |texture: usize| scene.images[scene.textures[texture].image].pixels[0];
     assert_eq!(image(face.base.texture.expect("a texture").texture), 10);
-    assert_eq!((image(face.matcap.expect("a matcap").texture), image(face.highlight.expect("one").map.texture)), (200, 200));
+    assert_eq!(
+        (image(face.matcap.expect("a matcap").texture), image(face.highlight.expect("one").map.texture)),
+        (200, 200)
+    );
 
     // Maps of other sizes cannot lie in one array.
     write_png(folder.join("wide.png"), &grey(8, 2, 1)).expect("a picture");
     let wide = text.replace("front = \"high.png\"", "front = \"wide.png\"");
     let message = apply_at(&file, &wide, &mut doll()).expect_err("sizes differ");
     assert!(message.contains("other sizes"), "{message}");
-    let some = text.replace("{ pitch_deg = 40, front = \"high.png\", back = \"back.png\" }", "{ pitch_deg = 40, front = \"high.png\" }");
+    let some = text.replace(
+        "{ pitch_deg = 40, front = \"high.png\", back = \"back.png\" }",
+        "{ pitch_deg = 40, front = \"high.png\" }",
+    );
     assert!(apply_at(&file, &some, &mut doll()).expect_err("one back map").contains("1 back maps for 2 pitches"));
     let twice = text.replace("pitch_deg = 40", "pitch_deg = -10");
     assert!(apply_at(&file, &twice, &mut doll()).expect_err("one pitch twice").contains("growing"));

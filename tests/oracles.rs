@@ -282,7 +282,8 @@ fn face_light_from_above_has_no_side() {
 #[test]
 fn a_stack_interpolates_over_the_height_of_the_light() {
     let pitches = [-30f32, 0.0, 60.0];
-    let rows: Vec<Vec<f32>> = [-90f32, -30.0, -15.0, 0.0, 15.0, 60.0, 90.0].iter().map(|p| vec![p.to_radians()]).collect();
+    let rows: Vec<Vec<f32>> =
+        [-90f32, -30.0, -15.0, 0.0, 15.0, 60.0, 90.0].iter().map(|p| vec![p.to_radians()]).collect();
     let [a, b, c] = pitches.map(f32::to_radians);
     let body = format!(
         "let at = face_stack_place(input[base], vec4f({a}, {b}, {c}, 0.0), 3u);
@@ -352,7 +353,8 @@ fn face_paint_multiplies_where_it_should() {
 /// Strands cut nothing at a breakup of 0, and only where a layer is not above them.
 #[test]
 fn strands_break_a_highlight() {
-    let rows = vec![vec![0.6, 0.9, 0.0], vec![1.0, 1.0, 0.5], vec![0.4, 1.0, 0.5], vec![0.4, 0.0, 0.5], vec![0.0, 0.3, 1.0]];
+    let rows =
+        vec![vec![0.6, 0.9, 0.0], vec![1.0, 1.0, 0.5], vec![0.4, 1.0, 0.5], vec![0.4, 0.0, 0.5], vec![0.0, 0.3, 1.0]];
     let body = "output[out] = highlight_broken(input[base], input[base + 1u], input[base + 2u]);";
     let found = run(&["highlight"], body, &rows, 1);
     for (i, (found, expected)) in found.iter().zip([0.6, 1.0, 0.0, 0.8, 0.0]).enumerate() {
@@ -420,6 +422,28 @@ fn esm_leaks_at_most_a_hundredth() {
     for (row, found) in rows.iter().zip(run(&["bangs"], body, &rows, 4)) {
         assert!(found[0] <= 0.010_01 && found[1] <= 0.000_11 && found[2] == 1.0, "{row:?}: {found:?}");
         assert!((found[3] - 1.0).abs() < 1e-6, "{row:?}: weights sum to {}", found[3]);
+    }
+}
+
+/// A surface that casts on itself gets no shadow from it, up to 45 degrees aslant: with the default edges, hardness and bias
+/// on a map of a head, where a texel is 1 mm.
+#[test]
+fn a_caster_has_no_acne() {
+    // Millimetres of depth a texel, and place in the texel.
+    let rows: Vec<Vec<f32>> = [-1.0, -0.5, 0.0, 0.3, 1.0]
+        .iter()
+        .flat_map(|slope: &f32| [0.0, 0.3, 0.5, 0.9].map(|f| vec![*slope, f]))
+        .collect();
+    let body = "
+        let range = 0.8; let slope = input[base] * 0.001 / range; let f = input[base + 1u];
+        var lit = 0.0;
+        for (var i = 0; i < BANGS_TAPS; i++) {
+            let tap = esm_taps(vec4f(0.5 + (f32(i) - 1.0 - f) * slope), 0.5, 1500.0, 0.001 / range).x;
+            lit += bangs_weight(i, f) * tap;
+        }
+        output[out] = bangs_factor(lit, vec2f(0.3, 0.7), 1.0, vec3f(0.0)).x;";
+    for (row, found) in rows.iter().zip(run(&["bangs"], body, &rows, 1)) {
+        assert_eq!(found[0], 1.0, "{row:?}");
     }
 }
 
@@ -519,8 +543,10 @@ fn depth_rims_have_a_width_a_threshold_and_a_side() {
     for (i, (found, expected)) in found.iter().zip([[8.0, 0.0], [0.0, -8.0], [-4.8, -6.4], [0.0, 0.0]]).enumerate() {
         assert_close("rim", i, found, &expected, 1e-5);
     }
-    let rows = vec![vec![0.02, 0.5], vec![0.04, 0.5], vec![0.05, 0.5], vec![1e9, 0.5], vec![1.0, -0.01], vec![1.0, 0.15]];
-    let body = "output[out] = depth_rim_step(input[base], 0.04) * depth_rim_side(input[base + 1u], 1.0, vec2f(0.0, 0.3));";
+    let rows =
+        vec![vec![0.02, 0.5], vec![0.04, 0.5], vec![0.05, 0.5], vec![1e9, 0.5], vec![1.0, -0.01], vec![1.0, 0.15]];
+    let body =
+        "output[out] = depth_rim_step(input[base], 0.04) * depth_rim_side(input[base + 1u], 1.0, vec2f(0.0, 0.3));";
     let found = run(&["depth_rim"], body, &rows, 1);
     for (i, (found, expected)) in found.iter().zip([0.0, 0.0, 1.0, 1.0, 0.0, 0.5]).enumerate() {
         assert_close("rim", i, found, &[expected], 1e-5);

@@ -46,8 +46,7 @@ fn averaged(image: &Image) -> Vec<u8> {
     for y in 0..SIDE {
         for x in 0..SIDE {
             for c in 0..3 {
-                let sum: u32 =
-                    (0..FINER * FINER).map(|i| at(x * FINER + i % FINER, y * FINER + i / FINER, c)).sum();
+                let sum: u32 = (0..FINER * FINER).map(|i| at(x * FINER + i % FINER, y * FINER + i / FINER, c)).sum();
                 out.push((sum / (FINER * FINER)) as u8);
             }
         }

@@ -41,7 +41,11 @@ pub fn load_texels(path: impl AsRef<Path>) -> Result<Texels> {
     let name = path.display().to_string();
     let bytes = read_regular(path, &limits).map_err(|e| read_error(&name, e, &limits))?;
     let texels = probe("image", &bytes, &limits).and_then(|p| {
-        if p.bits == 16 { p.decode_wide("image", &limits) } else { Ok(Texels::from(&p.decode("image", &limits)?)) }
+        if p.bits == 16 {
+            p.decode_wide("image", &limits)
+        } else {
+            Ok(Texels::from(&p.decode("image", &limits)?))
+        }
     });
     texels.map_err(|fault| fault.into_error(&name))
 }

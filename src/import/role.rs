@@ -58,7 +58,16 @@ const WORDS: &[Words] = &[
     Words {
         role: Role::EyeHighlight,
         whole: &[],
-        part: &["eyehighlight", "eye_highlight", "eyehilight", "highlight_eye", "瞳孔高光", "目ハイライト", "目の光", "眼高光"],
+        part: &[
+            "eyehighlight",
+            "eye_highlight",
+            "eyehilight",
+            "highlight_eye",
+            "瞳孔高光",
+            "目ハイライト",
+            "目の光",
+            "眼高光",
+        ],
     },
     Words {
         role: Role::Eye,
@@ -274,7 +283,9 @@ fn judge(
 ) -> Role {
     let on_head = share(scene, primitive, carrier, &head.nodes);
     match named {
-        Some(Role::Eye | Role::EyeHighlight | Role::EyeWhite | Role::Lash | Role::Brow | Role::Mouth | Role::Face) if on_head < 0.3 => {
+        Some(Role::Eye | Role::EyeHighlight | Role::EyeWhite | Role::Lash | Role::Brow | Role::Mouth | Role::Face)
+            if on_head < 0.3 =>
+        {
             Role::Accessory
         }
         Some(Role::Hair | Role::HairFront) => {

@@ -6,8 +6,8 @@ use glam::Vec3;
 
 use super::hair_band;
 use crate::material::{
-    AlphaMode, BangsShadow, DepthRim, FacePaint, FaceShadow, Highlight, Layer, Material, Outline, OutlineWidth, Shading,
-    Transition,
+    AlphaMode, BangsShadow, DepthRim, FacePaint, FaceShadow, Highlight, Layer, Material, Outline, OutlineWidth,
+    Shading, Transition,
 };
 use crate::scene::{Bangs, EyesThrough, Role, Scene};
 use crate::sdf::{FaceMap, ThresholdMap, face_map};

@@ -218,7 +218,8 @@ impl LookFile {
             if of_role.iter().all(|(_, table)| table == first) {
                 roles.insert(role_name(role), Value::Table(first.clone()));
             } else {
-                let named = of_role.into_iter().map(|(m, table)| (scene.materials[m].name.clone(), Value::Table(table)));
+                let named =
+                    of_role.into_iter().map(|(m, table)| (scene.materials[m].name.clone(), Value::Table(table)));
                 materials.extend(named);
             }
         }
@@ -305,9 +306,8 @@ impl LookFile {
                 units(step, false).map_err(|message| self.fault(pointer, message))?;
             }
         }
-        let maps: FaceMaps = Value::Table(named)
-            .try_into()
-            .map_err(|e: toml::de::Error| self.fault(pointer, nearest(e.message())))?;
+        let maps: FaceMaps =
+            Value::Table(named).try_into().map_err(|e: toml::de::Error| self.fault(pointer, nearest(e.message())))?;
         let read = |path: &PathBuf| -> Result<Texels> {
             Ok(image::load_texels(self.beside_this(path, pointer)?)?.laid_out(maps.layout))
         };
@@ -416,14 +416,14 @@ fn role_name(role: Role) -> String {
 fn look_sections(material: &crate::material::Material) -> Table {
     let kept = ["face_shadow", "transition", "face_paint", "bangs_shadow", "highlight", "layer", "depth_rim"];
     let mut table = table_of(material).unwrap_or_default();
-    table.retain(|key, _| kept.iter().any(|k| *k == key));
+    table.retain(|key, _| kept.contains(&key));
     strip_textures(&mut table);
     table
 }
 
 /// Removes what refers to textures by number: a look file names files.
 fn strip_textures(table: &mut Table) {
-    table.retain(|key, _| !TEXTURE_KEYS.iter().any(|k| *k == key));
+    table.retain(|key, _| !TEXTURE_KEYS.contains(&key));
     for value in table.iter_mut().filter_map(|(_, v)| v.as_table_mut()) {
         strip_textures(value);
     }
@@ -461,7 +461,8 @@ fn units(table: &mut Table, with_alpha: bool) -> Result<(), String> {
         let is_color = key == "color" || key.ends_with("_color") || key == "ambient";
         if let Some((suffix, unit, scale)) = suffixes.iter().find(|(suffix, ..)| key.ends_with(suffix)) {
             let value = table.remove(&key).unwrap_or(Value::Boolean(false));
-            let scaled = scaled(&value, *scale).ok_or_else(|| format!("{key}: expected a number or a list of numbers"))?;
+            let scaled =
+                scaled(&value, *scale).ok_or_else(|| format!("{key}: expected a number or a list of numbers"))?;
             table.insert(format!("{}{unit}", key.trim_end_matches(suffix)), scaled);
             continue;
         }
@@ -469,9 +470,11 @@ fn units(table: &mut Table, with_alpha: bool) -> Result<(), String> {
             Some(Value::Table(inner)) => units(inner, key == "base")?,
             Some(value @ Value::String(_)) if is_color => {
                 let text = value.as_str().unwrap_or_default();
-                let srgb = Srgb::from_hex(text).ok_or_else(|| format!("{key}: {text:?} is no colour; expected \"#rrggbb\""))?;
+                let srgb = Srgb::from_hex(text)
+                    .ok_or_else(|| format!("{key}: {text:?} is no colour; expected \"#rrggbb\""))?;
                 let alpha = with_alpha.then_some(1.0);
-                *value = Value::Array(srgb.to_linear().0.into_iter().chain(alpha).map(|c| Value::Float(c.into())).collect());
+                *value =
+                    Value::Array(srgb.to_linear().0.into_iter().chain(alpha).map(|c| Value::Float(c.into())).collect());
             }
             _ => {}
         }
@@ -551,14 +554,18 @@ mod tests {
 
     #[test]
     fn units_and_colours_are_converted() {
-        let mut table: Table =
-            toml::from_str("a_deg = [180, 90.0]\nb_mm = 3\nc_cm = 2.5\nrim_color = \"#ffffff\"\n[base]\ncolor = \"#000000\"")
-                .expect("TOML");
+        let mut table: Table = toml::from_str(
+            "a_deg = [180, 90.0]\nb_mm = 3\nc_cm = 2.5\nrim_color = \"#ffffff\"\n[base]\ncolor = \"#000000\"",
+        )
+        .expect("TOML");
         units(&mut table, false).expect("known units");
         let text = table.to_string();
         assert!(text.contains("a_rad = [3.14159265358"), "{text}");
         assert!(text.contains("b_m = 0.003") && text.contains("c_m = 0.025"), "{text}");
-        assert!(text.contains("rim_color = [1.0, 1.0, 1.0]") && text.contains("color = [0.0, 0.0, 0.0, 1.0]"), "{text}");
+        assert!(
+            text.contains("rim_color = [1.0, 1.0, 1.0]") && text.contains("color = [0.0, 0.0, 0.0, 1.0]"),
+            "{text}"
+        );
         assert!(units(&mut toml::from_str("x_deg = true").expect("TOML"), false).is_err());
         assert!(units(&mut toml::from_str("color = \"red\"").expect("TOML"), false).is_err());
     }

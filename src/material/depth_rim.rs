@@ -26,6 +26,13 @@ pub struct DepthRim {
 
 impl Default for DepthRim {
     fn default() -> Self {
-        Self { color: [0.55, 0.56, 0.6], tint: 0.7, strength: 1.0, width_px: 4.0, threshold_m: 0.04, light_side: [0.0, 0.3] }
+        Self {
+            color: [0.55, 0.56, 0.6],
+            tint: 0.7,
+            strength: 1.0,
+            width_px: 4.0,
+            threshold_m: 0.04,
+            light_side: [0.0, 0.3],
+        }
     }
 }

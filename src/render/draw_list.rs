@@ -84,7 +84,11 @@ pub(crate) fn record_marked(
     pass.set_pipeline(pipeline);
     pass.set_bind_group(2, &scene.material_groups[draw.material], &[]);
     let instances = scene.instance_rows.len() as u32;
-    let block = if mark.is_numbered() { instances.div_ceil(Mark::NUMBERS).max(1) } else { instances.max(1) };
+    let block = if mark.is_numbered() {
+        instances.div_ceil(Mark::NUMBERS).max(1)
+    } else {
+        instances.max(1)
+    };
     for number in 0..instances.div_ceil(block) {
         pass.set_stencil_reference(mark.reference(number));
         let first = number * block;

@@ -149,7 +149,8 @@ impl Renderer {
             }
             if let Some(code) = view.channel.shader_code() {
                 let shaded = scene.show_channel(self, code);
-                let view = View { channel: Channel::Final, background: Background::Color(Srgb([0; 3])), ..view.clone() };
+                let view =
+                    View { channel: Channel::Final, background: Background::Color(Srgb([0; 3])), ..view.clone() };
                 let picture = self.render(scene, &view);
                 scene.show_again(shaded);
                 return picture;
@@ -343,12 +344,7 @@ struct FrameDepth {
     group: wgpu::BindGroup,
 }
 
-fn frame_group(
-    gpu: &Gpu,
-    layouts: &Layouts,
-    uniform: &wgpu::Buffer,
-    depth: &wgpu::TextureView,
-) -> wgpu::BindGroup {
+fn frame_group(gpu: &Gpu, layouts: &Layouts, uniform: &wgpu::Buffer, depth: &wgpu::TextureView) -> wgpu::BindGroup {
     gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
         label: Some("frame"),
         layout: &layouts.frame,

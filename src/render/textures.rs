@@ -127,11 +127,7 @@ pub(crate) fn face_map(gpu: &Gpu, map: &FaceMap) -> Result<wgpu::TextureView> {
     let layers: Vec<&[[u16; 4]]> = map.layers().collect();
     let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
         label: Some(&map.name),
-        size: wgpu::Extent3d {
-            width: map.width,
-            height: map.height,
-            depth_or_array_layers: layers.len() as u32,
-        },
+        size: wgpu::Extent3d { width: map.width, height: map.height, depth_or_array_layers: layers.len() as u32 },
         mip_level_count: map.width.max(map.height).ilog2() + 1,
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
@@ -151,7 +147,11 @@ pub(crate) fn face_map(gpu: &Gpu, map: &FaceMap) -> Result<wgpu::TextureView> {
             let bytes: Vec<u8> = if map.is_8_bit {
                 level.iter().flatten().map(|c| ((u32::from(*c) + 128) / 257) as u8).collect()
             } else {
-                level.iter().flatten().flat_map(|c| half::f16::from_f32(f32::from(*c) / 65535.0).to_le_bytes()).collect()
+                level
+                    .iter()
+                    .flatten()
+                    .flat_map(|c| half::f16::from_f32(f32::from(*c) / 65535.0).to_le_bytes())
+                    .collect()
             };
             gpu.queue.write_texture(
                 wgpu::TexelCopyTextureInfo {
@@ -271,7 +271,11 @@ fn average(values: [u8; 4]) -> u8 {
 pub(crate) fn single(gpu: &Gpu, image: &Image, encoding: Encoding) -> Result<wgpu::TextureView> {
     // A broken image has no mips to make.
     let whole = image.pixels.len() as u64 == u64::from(image.width) * u64::from(image.height) * 4;
-    let mips = if whole { mip_chain(image, encoding, &Tables::new()) } else { Vec::new() };
+    let mips = if whole {
+        mip_chain(image, encoding, &Tables::new())
+    } else {
+        Vec::new()
+    };
     upload(gpu, image, &mips, encoding)
 }
 

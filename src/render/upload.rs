@@ -98,7 +98,7 @@ impl Renderer {
     /// Uploads a scene at rest and makes every pipeline that it needs.
     ///
     /// # Errors
-    /// [`Error::Gpu`](crate::Error::Gpu) where the adapter refuses a resource, [`Error::Argument`](crate::Error::Argument)
+    /// [`Error::Gpu`] where the adapter refuses a resource, [`Error::Argument`]
     /// where the scene contradicts itself.
     pub fn upload(&mut self, scene: &Scene) -> Result<GpuScene> {
         let gpu = self.gpu.clone();
@@ -168,7 +168,8 @@ impl Renderer {
             })
         };
         let character_group_without_map = character_group(&no_map, &no_map);
-        let character_group = bangs.as_ref().map_or_else(|| character_group_without_map.clone(), |b| character_group(&b.view, &b.near));
+        let character_group =
+            bangs.as_ref().map_or_else(|| character_group_without_map.clone(), |b| character_group(&b.view, &b.near));
         let deform = self.deform.buffers(&self.gpu, &geometry.deform_input());
         let draws = self.make_draws(scene, &geometry.parts);
         let mut uploaded = GpuScene {
@@ -394,8 +395,14 @@ impl GpuScene {
     pub(crate) fn light(&self, gpu: &Gpu, view: &View) {
         let from_world = view.instances.first().copied().unwrap_or_default().inverse();
         let to_light = from_world.transform_vector3(view.lights.directional.to_light).normalize_or(Vec3::Z);
-        let uniform =
-            CharacterUniform::new(self.head, self.rig.head_middle, self.bangs.as_ref(), self.eyes_through, to_light, from_world);
+        let uniform = CharacterUniform::new(
+            self.head,
+            self.rig.head_middle,
+            self.bangs.as_ref(),
+            self.eyes_through,
+            to_light,
+            from_world,
+        );
         gpu.queue.write_buffer(&self.character, 0, bytemuck::bytes_of(&uniform));
     }
 

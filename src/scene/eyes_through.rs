@@ -23,6 +23,11 @@ pub struct EyesThrough {
 
 impl Default for EyesThrough {
     fn default() -> Self {
-        Self { opacity: 0.5, window_m: 0.05, fade_yaw_rad: [50f32.to_radians(), 80f32.to_radians()], fade_pitch_rad: [40f32.to_radians(), 70f32.to_radians()] }
+        Self {
+            opacity: 0.5,
+            window_m: 0.05,
+            fade_yaw_rad: [50f32.to_radians(), 80f32.to_radians()],
+            fade_pitch_rad: [40f32.to_radians(), 70f32.to_radians()],
+        }
     }
 }

@@ -121,9 +121,7 @@ impl FaceMap {
     /// # Errors
     /// [`Error::Argument`] that names the fault.
     pub fn check(&self) -> Result<()> {
-        let fault = |message: String| {
-            Err(Error::Argument { what: format!("face map {:?}", self.name), message })
-        };
+        let fault = |message: String| Err(Error::Argument { what: format!("face map {:?}", self.name), message });
         let pitches = self.pitches_rad.len();
         if !(1..=MAX_PITCHES).contains(&pitches) {
             return fault(format!("has {pitches} pitches; expected 1 to {MAX_PITCHES}"));

@@ -12,7 +12,12 @@ use super::{
 use crate::{
     Gpu,
     material::{AlphaMode, Material},
-    render::{Layouts, draw_list::{self, Draw}, shaders, targets, upload::GpuScene},
+    render::{
+        Layouts,
+        draw_list::{self, Draw},
+        shaders, targets,
+        upload::GpuScene,
+    },
     scene::Bangs,
 };
 
@@ -50,8 +55,23 @@ struct Layer {
     near_input: wgpu::BindGroup,
 }
 
-/// Pipeline and instances of what casts.
-type Caster = (wgpu::RenderPipeline, std::ops::Range<u32>);
+/// What a layer of the map holds.
+#[derive(Clone, Copy)]
+enum Casts {
+    OnFace,
+    OnEyes,
+}
+
+impl Casts {
+    /// The pipeline of a draw that casts, and whose parts do, of a crowd of so many.
+    fn of(self, draw: &Draw, crowd: u32) -> Option<(&wgpu::RenderPipeline, std::ops::Range<u32>)> {
+        let (pipeline, instances) = match self {
+            Self::OnFace => (draw.bangs.as_ref()?, u32::from(!draw.casts_on_face)..crowd),
+            Self::OnEyes => (draw.lids.as_ref()?, 0..1),
+        };
+        (!instances.is_empty()).then_some((pipeline, instances))
+    }
+}
 
 /// What the pass reads and writes.
 pub(crate) struct BangsShadowInputs<'a> {
@@ -204,18 +224,14 @@ impl BangsShadowPass {
         inputs: &BangsShadowInputs<'_>,
         timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
     ) {
-        let crowd = inputs.scene.instance_rows.len() as u32;
-        let on_face = |d: &Draw| Some((d.bangs.clone()?, u32::from(!d.casts_on_face)..crowd));
-        let lids = |d: &Draw| Some((d.lids.clone()?, 0..1));
-        let casters: [&dyn Fn(&Draw) -> Option<Caster>; 2] = [&on_face, &lids];
         let last = inputs.map.layers.len() - 1;
-        for (i, (layer, caster)) in inputs.map.layers.iter().zip(casters).enumerate() {
+        for (i, (layer, casts)) in inputs.map.layers.iter().zip([Casts::OnFace, Casts::OnEyes]).enumerate() {
             // From the beginning of the first pass to the end of the last.
             let begin = timestamps.clone().filter(|_| i == 0);
             let end = timestamps.clone().filter(|_| i == last);
             let begin = begin.map(|t| wgpu::RenderPassTimestampWrites { end_of_pass_write_index: None, ..t });
             let end = end.map(|t| wgpu::RenderPassTimestampWrites { beginning_of_pass_write_index: None, ..t });
-            Self::encode_layer(encoder, inputs, &layer.map, caster, begin);
+            Self::encode_layer(encoder, inputs, &layer.map, casts, begin);
             inputs.reduce.encode(encoder, &BangsNearInputs { map: &layer.near_input, near: &layer.near }, end);
         }
     }
@@ -224,7 +240,7 @@ impl BangsShadowPass {
         encoder: &mut wgpu::CommandEncoder,
         inputs: &BangsShadowInputs<'_>,
         layer: &wgpu::TextureView,
-        caster: &dyn Fn(&Draw) -> Option<Caster>,
+        casts: Casts,
         timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
     ) {
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
@@ -248,10 +264,8 @@ impl BangsShadowPass {
         let character = &inputs.scene.character_group_without_map;
         draw_list::bind_scene(&mut pass, inputs.scene, inputs.frame, character);
         for draw in &inputs.scene.draws {
-            if let Some((pipeline, instances)) = caster(draw)
-                && !instances.is_empty()
-            {
-                pass.set_pipeline(&pipeline);
+            if let Some((pipeline, instances)) = casts.of(draw, inputs.scene.instance_rows.len() as u32) {
+                pass.set_pipeline(pipeline);
                 pass.set_bind_group(2, &inputs.scene.material_groups[draw.material], &[]);
                 pass.draw_indexed(draw.indices.clone(), 0, instances);
             }

@@ -59,7 +59,11 @@ impl PrepassPass {
                 layout: Some(&layouts.surface),
                 vertex: wgpu::VertexState {
                     module: &self.module,
-                    entry_point: Some(if depth_only && !alpha_test { "vs_depth" } else { "vs_main" }),
+                    entry_point: Some(if depth_only && !alpha_test {
+                        "vs_depth"
+                    } else {
+                        "vs_main"
+                    }),
                     compilation_options: options(),
                     buffers: &vertex_buffers(),
                 },

@@ -26,7 +26,11 @@ pub(crate) struct Args {
 }
 
 fn toml_path(text: &str) -> Result<PathBuf, String> {
-    if text.ends_with(".toml") { Ok(text.into()) } else { Err("expected a name that ends in .toml".into()) }
+    if text.ends_with(".toml") {
+        Ok(text.into())
+    } else {
+        Err("expected a name that ends in .toml".into())
+    }
 }
 
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {

@@ -152,11 +152,7 @@ fn rows(scene: &Scene) -> Vec<Rows> {
         rows.push(Rows { aspect: 1.25, panels: around("joints at 90\u{b0}", Framing::Full, Stance::Bend) });
     }
     let names = scene.character.iter().flat_map(|c| &c.expressions).map(|e| e.name.clone());
-    let panel = |name: String| Panel {
-        caption: name.clone(),
-        expression: Some(name),
-        ..Panel::default()
-    };
+    let panel = |name: String| Panel { caption: name.clone(), expression: Some(name), ..Panel::default() };
     rows.push(Rows { aspect: 1.0, panels: names.map(panel).collect() });
     rows
 }

@@ -69,7 +69,18 @@ impl Studio {
         let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/golden");
         let bless_command = "cargo xtask goldens --bless {name}".to_owned();
         let goldens = Goldens { bless_command, ..Goldens::new(folder) };
-        Self { gpu, renderer, scene, gpu_scene, goldens, faults: Vec::new(), light_deg: [-24.7, 33.4], head_deg: 0.0, distance_m: None, channel: Channel::Final }
+        Self {
+            gpu,
+            renderer,
+            scene,
+            gpu_scene,
+            goldens,
+            faults: Vec::new(),
+            light_deg: [-24.7, 33.4],
+            head_deg: 0.0,
+            distance_m: None,
+            channel: Channel::Final,
+        }
     }
 
     fn check(
@@ -91,7 +102,8 @@ impl Studio {
             pose.locals[head].rotation *= Quat::from_rotation_y(self.head_deg.to_radians());
         }
         self.gpu_scene.set_pose(&self.gpu, &self.scene, &pose);
-        let mut view = View { channel: self.channel, background: Background::Color(Srgb([0xdf, 0xe7, 0xee])), ..framed };
+        let mut view =
+            View { channel: self.channel, background: Background::Color(Srgb([0xdf, 0xe7, 0xee])), ..framed };
         let [yaw, pitch] = self.light_deg.map(f32::to_radians);
         view.lights.directional.to_light = Vec3::new(yaw.sin() * pitch.cos(), pitch.sin(), yaw.cos() * pitch.cos());
         if framing == Framing::Face {
@@ -156,7 +168,12 @@ fn the_anime_look_is_as_before() {
         ("eyes-through", Channel::EyesThrough),
     ] {
         studio.channel = channel;
-        studio.check(&format!("channel-{name}"), [128; 2], Framing::Face, 0.0, Stance::Rest, None);
+        let framing = if matches!(channel, Channel::Highlight | Channel::DepthRim) {
+            Framing::Portrait
+        } else {
+            Framing::Face
+        };
+        studio.check(&format!("channel-{name}"), [160; 2], framing, 0.0, Stance::Rest, None);
     }
     assert!(studio.faults.is_empty(), "{}", studio.faults.join("\n"));
 }

@@ -154,7 +154,8 @@ pub(super) fn face_paint() -> Picture {
             c.stroke(&line, 0x00ff00, 0.75, 0.0009 / UV_METRES);
         }
         // From between the eyes down to the tip.
-        let ridge = [at(side * 0.0042, 1.4), at(side * 0.0031, 1.39), at(side * 0.0026, 1.381), at(side * 0.003, 1.3745)];
+        let ridge =
+            [at(side * 0.0042, 1.4), at(side * 0.0031, 1.39), at(side * 0.0026, 1.381), at(side * 0.003, 1.3745)];
         c.stroke(&curve(&ridge, false), 0x0000ff, 0.9, 0.0008 / UV_METRES);
     }
     c.finish()
