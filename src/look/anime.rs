@@ -98,6 +98,7 @@ fn hair(scene: &mut Scene) {
                 map,
                 second_strength: 0.5,
                 second_color: [0.86, 0.84, 1.0],
+                breakup: 0.35,
                 in_shade: 0.08,
                 ..Highlight::default()
             });

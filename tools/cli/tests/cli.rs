@@ -296,3 +296,52 @@ fn bench_reports_frame_floor_and_their_ratio() {
     }
     assert!(succeeds(&dir, &args).contains("frame / floor"));
 }
+
+/// A look file beside the model is used without being named; `--look` wins over it.
+#[test]
+fn a_look_beside_the_model_is_used() {
+    let folder = folder("look");
+    let draw = |out: &str, look: &[&str]| {
+        let args = [&["render", "triangle.gltf", "-o", out, "--size", "32x32", "--view", "full", "--background", "none"], look].concat();
+        succeeds(&folder, &args);
+        fs::read(folder.join(out)).expect("a picture")
+    };
+    let bare = draw("bare.png", &[]);
+    fs::write(folder.join("triangle.look.toml"), "base = \"plain\"\n[role.other.base]\ncolor = \"#ff0000\"\n")
+        .expect("a look");
+    let red = draw("red.png", &[]);
+    assert!(red != bare, "the look beside the model does nothing");
+    assert!(draw("plain.png", &["--look", "plain"]) == bare, "--look plain is not plain");
+    fs::rename(folder.join("triangle.look.toml"), folder.join("other.look.toml")).expect("another name");
+    assert!(draw("named.png", &["--look", "other.look.toml"]) == red, "a named look is another");
+
+    fs::write(folder.join("bad.look.toml"), "[role.other.base]\ncolour = \"#ff0000\"\n").expect("a look");
+    let error = fails(&folder, &["render", "triangle.gltf", "-o", "bad.png", "--look", "bad.look.toml"], 1);
+    assert!(error.contains("bad.look.toml") && error.contains("\"colour\"") && error.contains("\"color\""), "{error}");
+    let error = fails(&folder, &["render", "triangle.gltf", "-o", "bad.png", "--look", "none.look.toml"], 1);
+    assert!(error.contains("none.look.toml"), "{error}");
+    let error = fails(&folder, &["render", "triangle.gltf", "-o", "bad.png", "--look", "pretty"], 2);
+    assert!(error.contains("plain, anime or a look file"), "{error}");
+    assert!(!folder.join("bad.png").exists());
+}
+
+/// The look file that is written gives the anime look, and a sheet of a sweep shows it.
+#[test]
+fn a_look_to_start_from_is_the_anime_look() {
+    let folder = folder("look-template");
+    succeeds(&folder, &["look", "-o", "her.look.toml"]);
+    let text = fs::read_to_string(folder.join("her.look.toml")).expect("a look");
+    for section in
+        ["[bangs]", "[eyes_through]", "[role.face.face_shadow]", "[role.eye.layer]", "[role.hair-front.depth_rim]"]
+    {
+        assert!(text.contains(section), "{section} is missing:\n{text}");
+    }
+    let draw = |out: &str, look: &str| {
+        succeeds(&folder, &["render", "-o", out, "--size", "48x48", "--view", "face", "--look", look]);
+        fs::read(folder.join(out)).expect("a picture")
+    };
+    assert!(draw("a.png", "anime") == draw("b.png", "her.look.toml"), "the written look is another");
+    succeeds(&folder, &["sheet", "--look", "anime", "--sweep", "distance", "--panel", "64", "-o", "sheet.png"]);
+    assert!(folder.join("sheet.png").exists());
+    fails(&folder, &["look", "-o", "her.txt"], 2);
+}

@@ -17,13 +17,19 @@ const SWIFTSHADER: [&str; 3] = [
 ];
 
 /// Tests that say something about a driver; of the whole workspace, so that nothing is built anew.
-const ON_SECOND_DRIVER: [&str; 18] = [
+const ON_SECOND_DRIVER: [&str; 24] = [
     "test",
     "--workspace",
     "--test",
     "adapters",
     "--test",
     "bangs_shadow",
+    "--test",
+    "channels",
+    "--test",
+    "depth_rim",
+    "--test",
+    "eye_layers",
     "--test",
     "eyes_through",
     "--test",
