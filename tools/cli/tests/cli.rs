@@ -302,7 +302,11 @@ fn bench_reports_frame_floor_and_their_ratio() {
 fn a_look_beside_the_model_is_used() {
     let folder = folder("look");
     let draw = |out: &str, look: &[&str]| {
-        let args = [&["render", "triangle.gltf", "-o", out, "--size", "32x32", "--view", "full", "--background", "none"], look].concat();
+        let args = [
+            &["render", "triangle.gltf", "-o", out, "--size", "32x32", "--view", "full", "--background", "none"],
+            look,
+        ]
+        .concat();
         succeeds(&folder, &args);
         fs::read(folder.join(out)).expect("a picture")
     };
