@@ -11,7 +11,7 @@ mod support;
 use support::gpu;
 
 /// Pictures are drawn this much finer and averaged, so that what moves by less than a pixel changes by as much.
-const FINER: u32 = 4;
+const FINER: u32 = 3;
 const SIDE: u32 = 96;
 
 struct Sweep {

@@ -78,7 +78,10 @@ fn round_hair(scene: &mut Scene) {
                 let out = matrix.transform_point3(Vec3::from(*position)) - middle;
                 let round = out.with_y(out.y.max(0.0)).normalize_or(Vec3::Y);
                 let own = Vec3::from(*normal);
-                let turned = own.lerp(back.transform_vector3(round).normalize_or(own), ROUNDED);
+                let round = back.transform_vector3(round).normalize_or(own);
+                // The inner side of a lock keeps its own.
+                let t = ((own.dot(round) + 0.2) / 0.6).clamp(0.0, 1.0);
+                let turned = own.lerp(round, ROUNDED * t * t * (3.0 - 2.0 * t));
                 *normal = turned.normalize_or(own).to_array();
             }
         }
@@ -140,18 +143,19 @@ fn faces(scene: &mut Scene, painted: Option<&ThresholdMap>) {
     }
 }
 
-/// White, iris and lights lie on one another in this order; lids and bangs shade the first two, and nothing the lights.
+/// White, iris and lights lie on one another in this order. Lids and bangs shade the first two, which stay readable in
+/// shade; the lights stay lit.
 fn eyes(scene: &mut Scene) {
     for (role, index, shadow) in [
-        (Role::EyeWhite, 0, Some([0.7, 0.66, 0.82])),
-        (Role::Eye, 1, Some([0.66, 0.6, 0.72])),
+        (Role::EyeWhite, 0, Some([0.72, 0.68, 0.84])),
+        (Role::Eye, 1, Some([0.7, 0.65, 0.76])),
         (Role::EyeHighlight, 2, None),
     ] {
         for material in materials_of(scene, role) {
             let material = &mut scene.materials[material];
-            material.layer = Some(Layer { index, stay_lit: f32::from(u8::from(shadow.is_none())) });
+            material.layer = Some(Layer { index, stay_lit: if shadow.is_some() { 0.6 } else { 1.0 } });
             material.bangs_shadow =
-                shadow.map(|color| BangsShadow { color, strength: 0.8, lids: true, ..BangsShadow::default() });
+                shadow.map(|color| BangsShadow { color, strength: 0.7, lids: true, ..BangsShadow::default() });
         }
     }
 }

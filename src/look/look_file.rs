@@ -6,8 +6,12 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use toml::{Table, Value};
 
-use super::{Look, anime::materials_of};
-use crate::color::{LinearRgb, Srgb};
+use super::{
+    Look,
+    anime::materials_of,
+    values::{merge, nearest, no_such, not_finite, units},
+};
+use crate::color::LinearRgb;
 use crate::import::image;
 use crate::scene::{Ambient, DirectionalLight, Image, Lights, Role, Sampler, Scene, Texture, Wrap};
 use crate::sdf::{FaceLayout, FaceMap, Texels};
@@ -429,106 +433,6 @@ fn strip_textures(table: &mut Table) {
     }
 }
 
-/// Lays a table over another. `false` takes a section out. The variants of an enum exclude each other, so that theirs are
-/// replaced whole.
-fn merge(under: &mut Table, over: &Table) {
-    for (key, value) in over {
-        let is_switch = matches!(under.get(key), Some(Value::Boolean(_)));
-        match (under.get_mut(key), value) {
-            (Some(Value::Table(a)), Value::Table(b)) => {
-                let is_variant = ["shading", "width"].contains(&key.as_str()) && !a.keys().eq(b.keys());
-                if is_variant {
-                    *a = b.clone();
-                } else {
-                    merge(a, b);
-                }
-            }
-            (_, Value::Boolean(false)) if !is_switch => {
-                under.remove(key);
-            }
-            _ => {
-                under.insert(key.clone(), value.clone());
-            }
-        }
-    }
-}
-
-/// Turns degrees, centimetres and millimetres into what sections hold, and written colours into linear numbers.
-fn units(table: &mut Table, with_alpha: bool) -> Result<(), String> {
-    let keys: Vec<String> = table.keys().cloned().collect();
-    for key in keys {
-        let suffixes = [("_deg", "_rad", std::f64::consts::PI / 180.0), ("_cm", "_m", 0.01), ("_mm", "_m", 0.001)];
-        let is_color = key == "color" || key.ends_with("_color") || key == "ambient";
-        if let Some((suffix, unit, scale)) = suffixes.iter().find(|(suffix, ..)| key.ends_with(suffix)) {
-            let value = table.remove(&key).unwrap_or(Value::Boolean(false));
-            let scaled =
-                scaled(&value, *scale).ok_or_else(|| format!("{key}: expected a number or a list of numbers"))?;
-            table.insert(format!("{}{unit}", key.trim_end_matches(suffix)), scaled);
-            continue;
-        }
-        match table.get_mut(&key) {
-            Some(Value::Table(inner)) => units(inner, key == "base")?,
-            Some(value @ Value::String(_)) if is_color => {
-                let text = value.as_str().unwrap_or_default();
-                let srgb = Srgb::from_hex(text)
-                    .ok_or_else(|| format!("{key}: {text:?} is no colour; expected \"#rrggbb\""))?;
-                let alpha = with_alpha.then_some(1.0);
-                *value =
-                    Value::Array(srgb.to_linear().0.into_iter().chain(alpha).map(|c| Value::Float(c.into())).collect());
-            }
-            _ => {}
-        }
-    }
-    Ok(())
-}
-
-fn scaled(value: &Value, by: f64) -> Option<Value> {
-    match value {
-        Value::Float(x) => Some(Value::Float(x * by)),
-        Value::Integer(x) => Some(Value::Float(*x as f64 * by)),
-        Value::Array(list) => list.iter().map(|v| scaled(v, by)).collect::<Option<_>>().map(Value::Array),
-        _ => None,
-    }
-}
-
-/// Name of a number that is infinite or none.
-fn not_finite(table: &Table) -> Option<String> {
-    fn bad(value: &Value) -> bool {
-        match value {
-            Value::Float(x) => !x.is_finite() || x.abs() > f64::from(f32::MAX),
-            Value::Array(list) => list.iter().any(bad),
-            _ => false,
-        }
-    }
-    table.iter().find_map(|(key, value)| match value {
-        Value::Table(inner) => not_finite(inner).map(|inner| format!("{key}.{inner}")),
-        value => bad(value).then(|| key.clone()),
-    })
-}
-
-fn no_such<'a>(what: &str, name: &str, names: impl Iterator<Item = &'a str>) -> String {
-    let near = closest(name, names.filter(|n| !n.is_empty()));
-    format!("there is no {what} {name:?}{}", near.map_or(String::new(), |n| format!("; the nearest is {n:?}")))
-}
-
-fn closest<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a str> {
-    names.min_by_key(|n| strsim::damerau_levenshtein(&name.to_lowercase(), &n.to_lowercase()))
-}
-
-/// A message about an unknown key, which lists all that there are, with the nearest of them instead.
-fn nearest(message: &str) -> String {
-    let first = message.lines().next().unwrap_or_default();
-    let is_unknown = first.starts_with("unknown field") || first.starts_with("unknown variant");
-    let quoted: Vec<&str> = first.split('`').skip(1).step_by(2).collect();
-    match (is_unknown, quoted.as_slice()) {
-        (true, [name, known @ ..]) if !known.is_empty() => {
-            let near = closest(name, known.iter().copied()).unwrap_or_default();
-            format!("there is no {name:?}; the nearest is {near:?} (known: {})", known.join(", "))
-        }
-        _ => first.to_owned(),
-    }
-}
-
 fn line_of(text: &str, span: Option<std::ops::Range<usize>>) -> String {
     let before = span.and_then(|s| text.get(..s.start));
     before.map_or("file".to_owned(), |b| format!("line {}", b.matches('\n').count() + 1))
@@ -550,23 +454,5 @@ mod tests {
         };
         let back: Material = Value::Table(table_of(&material).expect("a table")).try_into().expect("a material");
         assert_eq!(back, material);
-    }
-
-    #[test]
-    fn units_and_colours_are_converted() {
-        let mut table: Table = toml::from_str(
-            "a_deg = [180, 90.0]\nb_mm = 3\nc_cm = 2.5\nrim_color = \"#ffffff\"\n[base]\ncolor = \"#000000\"",
-        )
-        .expect("TOML");
-        units(&mut table, false).expect("known units");
-        let text = table.to_string();
-        assert!(text.contains("a_rad = [3.14159265358"), "{text}");
-        assert!(text.contains("b_m = 0.003") && text.contains("c_m = 0.025"), "{text}");
-        assert!(
-            text.contains("rim_color = [1.0, 1.0, 1.0]") && text.contains("color = [0.0, 0.0, 0.0, 1.0]"),
-            "{text}"
-        );
-        assert!(units(&mut toml::from_str("x_deg = true").expect("TOML"), false).is_err());
-        assert!(units(&mut toml::from_str("color = \"red\"").expect("TOML"), false).is_err());
     }
 }

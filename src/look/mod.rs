@@ -3,6 +3,7 @@
 mod anime;
 mod hair_band;
 mod look_file;
+mod values;
 
 pub use look_file::LookFile;
 

@@ -3,8 +3,14 @@
 use glam::Vec3;
 
 use super::{
-    pass::{Mark, SurfaceFlags},
+    Renderer,
+    geometry::Part,
+    pass::{Driven, Mark, SurfaceFlags, color_depth_format},
     upload::GpuScene,
+};
+use crate::{
+    material::AlphaMode,
+    scene::{Role, Scene},
 };
 
 /// One draw: a range of indices under one material, with the pipelines that show it.
@@ -19,7 +25,6 @@ pub(crate) struct Draw {
     pub queue_offset: i32,
     pub surface: wgpu::RenderPipeline,
     pub outline: Option<wgpu::RenderPipeline>,
-    pub prepass: wgpu::RenderPipeline,
     /// Writes its depth for rims.
     pub depth: Option<wgpu::RenderPipeline>,
     pub flags: SurfaceFlags,
@@ -32,6 +37,92 @@ pub(crate) struct Draw {
     pub mark: Mark,
     /// Draws an eye over the hair before it.
     pub through: Option<wgpu::RenderPipeline>,
+}
+
+impl Renderer {
+    /// One draw for each opaque material, one for each transparent part; outlines likewise.
+    pub(super) fn make_draws(&mut self, scene: &Scene, parts: &[Part]) -> Vec<Draw> {
+        let driven = Driven::of(scene);
+        let has_stencil = color_depth_format(&self.gpu).has_stencil_aspect();
+        let has_marks = scene.eyes_through.is_some() && has_stencil;
+        let has_lids = scene.bangs.is_some() && scene.materials.iter().any(|m| m.bangs_shadow.is_some_and(|b| b.lids));
+        let has_depth_rim = scene.materials.iter().any(|m| m.depth_rim.is_some_and(|r| r.strength > 0.0));
+        let mut draws: Vec<Draw> = Vec::new();
+        for part in parts {
+            let Some(material) = scene.materials.get(part.material) else { continue };
+            let blend = material.alpha.mode == AlphaMode::Blend;
+            let in_map = scene.bangs.is_some() && !blend;
+            let casts_on_face = in_map && casts_on_face(part.role);
+            let casts_lids = has_lids && matches!(part.role, Role::Face | Role::Lash) && !blend;
+            let mark = if has_marks && !blend {
+                mark(part.role)
+            } else {
+                Mark::None
+            };
+            // Parts are sorted by material, so that those of one material follow each other in the index buffer.
+            if let Some(last) = draws.last_mut()
+                && !blend
+                && last.material == part.material
+                && last.indices.end == part.indices.start
+                && last.casts_on_face == casts_on_face
+                && last.lids.is_some() == casts_lids
+                && last.mark == mark
+            {
+                last.indices.end = part.indices.end;
+                continue;
+            }
+            let flags = SurfaceFlags::of(material, &driven[part.material], part.has_vertex_colors, &scene.face_maps);
+            draws.push(Draw {
+                material: part.material,
+                indices: part.indices.clone(),
+                center: part.center,
+                blend,
+                write_depth: material.alpha.write_depth,
+                queue_offset: material.alpha.queue_offset,
+                surface: if blend {
+                    self.transparent.pipeline(&self.gpu, &self.layouts, flags, material)
+                } else {
+                    self.opaque.pipeline(&self.gpu, &self.layouts, flags, material, mark)
+                },
+                outline: self.outline.pipeline(&self.gpu, &self.layouts, flags, material, &driven[part.material]),
+                depth: (has_depth_rim && !blend)
+                    .then(|| self.prepass.pipeline(&self.gpu, &self.layouts, flags, material, true)),
+                flags,
+                mark,
+                through: (mark == Mark::Eyes)
+                    .then(|| self.eyes_through.pipeline(&self.gpu, &self.layouts, flags, material)),
+                casts_on_face,
+                bangs: in_map.then(|| self.bangs_shadow.pipeline(&self.gpu, &self.layouts, flags, material)),
+                lids: casts_lids.then(|| self.bangs_shadow.pipeline(&self.gpu, &self.layouts, flags, material)),
+            });
+        }
+        // Hair marks what it hides last; cards of a stack follow each other. The sort is stable and leaves blended draws at
+        // the end.
+        let layer = |d: &Draw| scene.materials[d.material].layer.map_or(0, |l| l.index);
+        draws.sort_by_key(|d| (d.blend, has_marks.then_some(d.mark), if d.blend { 0 } else { layer(d) }));
+        draws
+    }
+}
+
+/// Whether a part of this role casts the shadow on its own face. Skin of the face and what lies on it do not.
+pub(super) fn casts_on_face(role: Role) -> bool {
+    matches!(role, Role::HairFront | Role::Skin | Role::Cloth | Role::Accessory)
+}
+
+/// What a part of this role has to do with eyes through hair.
+fn mark(role: Role) -> Mark {
+    match role {
+        Role::Eye | Role::EyeHighlight | Role::EyeWhite | Role::Lash | Role::Brow => Mark::Eyes,
+        Role::HairFront | Role::Hair => Mark::Hair,
+        _ => Mark::None,
+    }
+}
+
+/// Eyes and brows, the foremost first: characters face +Z.
+pub(super) fn through_order(draws: &[Draw]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..draws.len()).filter(|i| draws[*i].through.is_some()).collect();
+    order.sort_by(|a, b| draws[*b].center.z.total_cmp(&draws[*a].center.z));
+    order
 }
 
 impl GpuScene {

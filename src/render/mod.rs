@@ -322,8 +322,13 @@ impl Renderer {
         let mut encoder =
             self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("channel") });
         self.encode_deform(&mut encoder, scene, None);
+        // Made here and not at upload: few scenes are ever looked at in these channels.
+        let Self { gpu, layouts, prepass, frame_group, .. } = self;
+        let pipelines: Vec<wgpu::RenderPipeline> =
+            scene.draws.iter().map(|d| prepass.pipeline(gpu, layouts, d.flags, scene.material(d), false)).collect();
         // Depth, normal and part id.
-        self.prepass.encode(&mut encoder, &PrepassInputs { scene, frame: &self.frame_group, targets: &targets });
+        let inputs = PrepassInputs { scene, frame: frame_group, targets: &targets, pipelines: &pipelines };
+        prepass.encode(&mut encoder, &inputs);
         self.gpu.queue.submit([encoder.finish()]);
         let texture = match view.channel {
             Channel::Depth => &targets.depth,

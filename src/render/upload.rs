@@ -7,12 +7,11 @@ use wgpu::util::DeviceExt;
 
 use super::{
     Renderer, View,
-    draw_list::Draw,
-    geometry::{Geometry, Palette, Part, Rig},
+    draw_list::{Draw, casts_on_face, through_order},
+    geometry::{Geometry, Palette, Rig},
     pass::{
-        Driven, Mark, SurfaceFlags,
+        SurfaceFlags,
         bangs_shadow::{BangsMap, map_texture},
-        color_depth_format,
         deform::DeformBuffers,
     },
     textures::{self, Encoding, TextureSet},
@@ -20,9 +19,9 @@ use super::{
 };
 use crate::{
     Error, Gpu, Result,
-    material::{AlphaMode, Material, Shading, TextureRef},
+    material::{Material, Shading, TextureRef},
     motion::Pose,
-    scene::{EyesThrough, Image, Role, Scene},
+    scene::{EyesThrough, Image, Scene},
     sdf::FaceMap,
 };
 
@@ -268,91 +267,6 @@ impl Renderer {
         let middle = (low + high) * 0.5;
         ((casts || lids) && receives).then(|| BangsMap::new(&self.gpu, &self.bangs_near, bangs, middle, half, lids))
     }
-
-    /// One draw for each opaque material, one for each transparent part; outlines likewise.
-    fn make_draws(&mut self, scene: &Scene, parts: &[Part]) -> Vec<Draw> {
-        let driven = Driven::of(scene);
-        let has_stencil = color_depth_format(&self.gpu).has_stencil_aspect();
-        let has_marks = scene.eyes_through.is_some() && has_stencil;
-        let has_lids = scene.bangs.is_some() && scene.materials.iter().any(|m| m.bangs_shadow.is_some_and(|b| b.lids));
-        let has_depth_rim = scene.materials.iter().any(|m| m.depth_rim.is_some_and(|r| r.strength > 0.0));
-        let mut draws: Vec<Draw> = Vec::new();
-        for part in parts {
-            let Some(material) = scene.materials.get(part.material) else { continue };
-            let blend = material.alpha.mode == AlphaMode::Blend;
-            let in_map = scene.bangs.is_some() && !blend;
-            let casts_on_face = in_map && casts_on_face(part.role);
-            let casts_lids = has_lids && matches!(part.role, Role::Face | Role::Lash) && !blend;
-            let mark = if has_marks && !blend {
-                mark(part.role)
-            } else {
-                Mark::None
-            };
-            // Parts are sorted by material, so that those of one material follow each other in the index buffer.
-            if let Some(last) = draws.last_mut()
-                && !blend
-                && last.material == part.material
-                && last.indices.end == part.indices.start
-                && last.casts_on_face == casts_on_face
-                && last.lids.is_some() == casts_lids
-                && last.mark == mark
-            {
-                last.indices.end = part.indices.end;
-                continue;
-            }
-            let flags = SurfaceFlags::of(material, &driven[part.material], part.has_vertex_colors, &scene.face_maps);
-            draws.push(Draw {
-                material: part.material,
-                indices: part.indices.clone(),
-                center: part.center,
-                blend,
-                write_depth: material.alpha.write_depth,
-                queue_offset: material.alpha.queue_offset,
-                surface: if blend {
-                    self.transparent.pipeline(&self.gpu, &self.layouts, flags, material)
-                } else {
-                    self.opaque.pipeline(&self.gpu, &self.layouts, flags, material, mark)
-                },
-                outline: self.outline.pipeline(&self.gpu, &self.layouts, flags, material, &driven[part.material]),
-                prepass: self.prepass.pipeline(&self.gpu, &self.layouts, flags, material, false),
-                depth: (has_depth_rim && !blend)
-                    .then(|| self.prepass.pipeline(&self.gpu, &self.layouts, flags, material, true)),
-                flags,
-                mark,
-                through: (mark == Mark::Eyes)
-                    .then(|| self.eyes_through.pipeline(&self.gpu, &self.layouts, flags, material)),
-                casts_on_face,
-                bangs: in_map.then(|| self.bangs_shadow.pipeline(&self.gpu, &self.layouts, flags, material)),
-                lids: casts_lids.then(|| self.bangs_shadow.pipeline(&self.gpu, &self.layouts, flags, material)),
-            });
-        }
-        // Hair marks what it hides last; cards of a stack follow each other. The sort is stable and leaves blended draws at
-        // the end.
-        let layer = |d: &Draw| scene.materials[d.material].layer.map_or(0, |l| l.index);
-        draws.sort_by_key(|d| (d.blend, has_marks.then_some(d.mark), if d.blend { 0 } else { layer(d) }));
-        draws
-    }
-}
-
-/// Whether a part of this role casts the shadow on its own face. Skin of the face and what lies on it do not.
-fn casts_on_face(role: Role) -> bool {
-    matches!(role, Role::HairFront | Role::Skin | Role::Cloth | Role::Accessory)
-}
-
-/// What a part of this role has to do with eyes through hair.
-fn mark(role: Role) -> Mark {
-    match role {
-        Role::Eye | Role::EyeHighlight | Role::EyeWhite | Role::Lash | Role::Brow => Mark::Eyes,
-        Role::HairFront | Role::Hair => Mark::Hair,
-        _ => Mark::None,
-    }
-}
-
-/// Eyes and brows, the foremost first: characters face +Z.
-fn through_order(draws: &[Draw]) -> Vec<usize> {
-    let mut order: Vec<usize> = (0..draws.len()).filter(|i| draws[*i].through.is_some()).collect();
-    order.sort_by(|a, b| draws[*b].center.z.total_cmp(&draws[*a].center.z));
-    order
 }
 
 impl GpuScene {
@@ -406,11 +320,17 @@ impl GpuScene {
         gpu.queue.write_buffer(&self.character, 0, bytemuck::bytes_of(&uniform));
     }
 
+    /// The material of a draw as it was uploaded.
+    pub(crate) fn material(&self, draw: &Draw) -> &Material {
+        &self.source_materials[draw.material]
+    }
+
     /// Puts the pipelines of a debug channel in place of those of the picture, and gives these.
     pub(crate) fn show_channel(&mut self, renderer: &mut Renderer, channel: u32) -> Vec<Shaded> {
         let Renderer { gpu, layouts, opaque, transparent, eyes_through, .. } = renderer;
+        let Self { draws, source_materials, .. } = self;
         let swap = |draw: &mut Draw| {
-            let material = &self.source_materials[draw.material];
+            let material = &source_materials[draw.material];
             let flags = SurfaceFlags { channel, ..draw.flags };
             let surface = if draw.blend {
                 transparent.pipeline(gpu, layouts, flags, material)
@@ -424,7 +344,7 @@ impl GpuScene {
                 outline: draw.outline.take(),
             }
         };
-        self.draws.iter_mut().map(swap).collect()
+        draws.iter_mut().map(swap).collect()
     }
 
     /// Puts the pipelines of the picture back.

@@ -1,19 +1,17 @@
 // A toon surface: samples the material's textures and shades. Shared by the opaque, outline and transparent passes.
 // Which parts exist is fixed at pipeline creation, so that what a material does not use costs nothing.
 import package::bind::character::{BANGS_LAYER, LIDS_LAYER, bangs_lit};
+import package::bind::face::{FaceOptions, face_shading_at};
 import package::bind::frame::{distance_at, frame, frame_depth};
 import package::bind::material::{
     UvTransform, material, base_texture, base_sampler, shade_texture, shade_sampler, shift_texture, shift_sampler,
     normal_texture, normal_sampler, emission_texture, emission_sampler, matcap_texture, matcap_sampler,
-    rim_mask_texture, rim_mask_sampler, animation_mask_texture, animation_mask_sampler, face_texture, face_sampler,
-    highlight_texture, highlight_sampler, face_paint_texture, face_paint_sampler,
+    rim_mask_texture, rim_mask_sampler, animation_mask_texture, animation_mask_sampler, highlight_texture, highlight_sampler, face_paint_texture, face_paint_sampler,
 };
 import package::lib::bangs::bangs_factor;
 import package::lib::depth_rim::{depth_rim_offset, depth_rim_resolved, depth_rim_side, depth_rim_step};
 import package::lib::face_paint::face_paint_factor;
-import package::lib::face_shadow::{
-    face_back_share, face_lit, face_masked, face_shading, face_side, face_stack_place,
-};
+import package::lib::face_shadow::face_shading;
 import package::lib::highlight::highlight_broken;
 import package::lib::light::{accumulated_n_dot_l, distance_attenuation, luminance, spot_attenuation};
 import package::lib::mtoon::{
@@ -226,7 +224,8 @@ fn shade_surface(options: SurfaceOptions, in: SurfaceInput) -> vec4f {
     // Share of the surface that is face: neck and body take no shadow of bangs.
     var of_face = 1.0;
     if options.face_shadow {
-        let face = face_shading_at(options, in);
+        let parts = FaceOptions(options.face_stack, options.face_back, options.face_masks);
+        let face = face_shading_at(parts, in.uv.xy, in.face_light);
         of_face = 1.0 - face.region;
         shading = face_shading(shading, face.lit, face.region, face.strength * directional);
         if options.transition {
@@ -362,54 +361,4 @@ fn layer_color(options: SurfaceOptions) -> vec3f {
         return vec3f(0.0);
     }
     return vec3f(0.5 + material.layer_pull * 600.0);
-}
-
-// Light on a face by its map: with its own border and with that of the transition, share of normal shading, strength.
-struct FaceLight {
-    lit: f32,
-    soft: f32,
-    region: f32,
-    strength: f32,
-}
-
-fn face_shading_at(options: SurfaceOptions, in: SurfaceInput) -> FaceLight {
-    let light_x = in.face_light.x;
-    let angle = in.face_light.z;
-    let measure = in.face_light.w;
-    var place = vec2f(0.0);
-    if options.face_stack {
-        place = face_stack_place(in.face_light.y, material.face_pitches, material.face_pitch_count);
-    }
-    var map = face_map_at(options, in.uv.xy, 0, place);
-    var tau = face_side(map.rg, light_x);
-    var lit = face_lit(tau, measure, material.face_softness);
-    var soft = face_lit(tau, measure, material.transition_width);
-    if options.face_back {
-        let back = face_map_at(options, in.uv.xy, i32(material.face_pitch_count), place);
-        let share = face_back_share(angle);
-        tau = face_side(back.rg, light_x);
-        lit = mix(lit, face_lit(tau, measure, material.face_softness), share);
-        soft = mix(soft, face_lit(tau, measure, material.transition_width), share);
-        map = vec4f(map.rg, mix(map.ba, back.ba, share));
-    }
-    if options.face_masks {
-        let layer = i32(material.face_pitch_count) * select(1, 2, options.face_back);
-        let masks = textureSample(face_texture, face_sampler, in.uv.xy, layer);
-        let side = face_side(masks.rg, light_x);
-        let back = face_side(masks.ba, light_x);
-        lit = face_masked(lit, side, back, angle);
-        soft = face_masked(soft, side, back, angle);
-    }
-    return FaceLight(lit, soft, map.b, map.a);
-}
-
-// The map of the stack for the light's height; its thresholds lie between those of the two nearest ones.
-fn face_map_at(options: SurfaceOptions, uv: vec2f, first: i32, place: vec2f) -> vec4f {
-    let low = textureSample(face_texture, face_sampler, uv, first + i32(place.x));
-    if !options.face_stack {
-        return low;
-    }
-    let last = first + i32(material.face_pitch_count) - 1;
-    let high = textureSample(face_texture, face_sampler, uv, min(first + i32(place.x) + 1, last));
-    return mix(low, high, place.y);
 }

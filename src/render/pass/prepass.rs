@@ -26,6 +26,8 @@ pub(crate) struct PrepassInputs<'a> {
     pub scene: &'a GpuScene,
     pub frame: &'a wgpu::BindGroup,
     pub targets: &'a PrepassTargets,
+    /// One for each draw of the scene.
+    pub pipelines: &'a [wgpu::RenderPipeline],
 }
 
 impl PrepassPass {
@@ -134,8 +136,8 @@ impl PrepassPass {
             ..Default::default()
         });
         draw_list::bind_scene(&mut pass, inputs.scene, inputs.frame, &inputs.scene.character_group);
-        for draw in &inputs.scene.draws {
-            draw_list::record(&mut pass, inputs.scene, draw, &draw.prepass);
+        for (draw, pipeline) in inputs.scene.draws.iter().zip(inputs.pipelines) {
+            draw_list::record(&mut pass, inputs.scene, draw, pipeline);
         }
     }
 }
