@@ -1,7 +1,8 @@
 //! Hikage (日陰, "shade"): stylized (NPR) shading of anime characters on wgpu.
 //!
 //! A VRM or glTF character goes in, a toon picture comes out: in an application's own window, or headless on a machine
-//! without a GPU. The shading follows MToon 1.0 clause by clause.
+//! without a GPU. The shading follows MToon 1.0 clause by clause; [`Look::Anime`] and look files ([`LookFile`]) add what it
+//! has no words for.
 //!
 //! ```no_run
 //! use hikage::{Gpu, Renderer, View, import, picture, scene::Framing};

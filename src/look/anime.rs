@@ -96,7 +96,7 @@ fn hair(scene: &mut Scene) {
     for role in [Role::HairFront, Role::Hair] {
         for index in materials_of(scene, role) {
             let material = &mut scene.materials[index];
-            material.depth_rim = Some(rim);
+            material.depth_rim = (material.alpha.mode != AlphaMode::Blend).then_some(rim);
             material.highlight = material.authored_highlight.map(|map| Highlight {
                 map,
                 second_strength: 0.5,

@@ -3,9 +3,9 @@
 /// The light of the bangs' shadow: what casts on the face drawn from an orthographic camera that is fitted to the head.
 ///
 /// Casters are the parts of the roles [`HairFront`](super::Role::HairFront), [`Skin`](super::Role::Skin) (hands),
-/// [`Cloth`](super::Role::Cloth) and [`Accessory`](super::Role::Accessory), and all of other characters; materials with a
-/// [`BangsShadow`](crate::material::BangsShadow) receive it. The texels of its map have a fixed size in metres, so that
-/// neither zoom nor field of view changes the edge.
+/// [`Cloth`](super::Role::Cloth) and [`Accessory`](super::Role::Accessory), and all of other characters (the first 16 of a
+/// crowd); materials with a [`BangsShadow`](crate::material::BangsShadow) receive it. The texels of its map have a fixed
+/// size in metres, so that neither zoom nor field of view changes the edge.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Bangs {

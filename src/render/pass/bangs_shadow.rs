@@ -55,6 +55,9 @@ struct Layer {
     near_input: wgpu::BindGroup,
 }
 
+/// Characters of a crowd that cast on the face of the first one.
+const MOST_CASTING: u32 = 16;
+
 /// What a layer of the map holds.
 #[derive(Clone, Copy)]
 enum Casts {
@@ -66,7 +69,7 @@ impl Casts {
     /// The pipeline of a draw that casts, and whose parts do, of a crowd of so many.
     fn of(self, draw: &Draw, crowd: u32) -> Option<(&wgpu::RenderPipeline, std::ops::Range<u32>)> {
         let (pipeline, instances) = match self {
-            Self::OnFace => (draw.bangs.as_ref()?, u32::from(!draw.casts_on_face)..crowd),
+            Self::OnFace => (draw.bangs.as_ref()?, u32::from(!draw.casts_on_face)..crowd.min(MOST_CASTING)),
             Self::OnEyes => (draw.lids.as_ref()?, 0..1),
         };
         (!instances.is_empty()).then_some((pipeline, instances))
