@@ -2,20 +2,12 @@
 
 use glam::{Mat4, Vec3};
 use hikage::color::LinearRgb;
-use hikage::import::{Limits, load_bytes};
 use hikage::scene::{Ambient, Bangs, Framing, Image, Role, Scene};
-use hikage::{Look, Renderer, View};
+use hikage::{Renderer, View};
 
 #[path = "support/scene.rs"]
 mod support;
-use support::{gpu, render};
-
-fn heroine() -> Scene {
-    let mut scene =
-        load_bytes("hikage.vrm", &hikage_character::file(), None, &Limits::default()).expect("the file is read");
-    Look::Anime { face: None }.apply(&mut scene);
-    scene
-}
+use support::{anime_heroine, gpu, render};
 
 /// Her face, lit from above and a little from the left.
 fn face(scene: &Scene, side: u32) -> View {
@@ -46,7 +38,7 @@ fn without(scene: &Scene) -> Scene {
 
 #[test]
 fn bangs_darken_the_forehead_and_nothing_gets_lighter() {
-    let (gpu, scene) = (gpu(), heroine());
+    let (gpu, scene) = (gpu(), anime_heroine());
     let view = face(&scene, 256);
     let (with, bare) = (render(&gpu, &scene, &view), render(&gpu, &without(&scene), &view));
     let share = shadowed(&with, &bare);
@@ -61,7 +53,7 @@ fn bangs_darken_the_forehead_and_nothing_gets_lighter() {
 /// Moving the whole character, or coming nearer, leaves the shadow on the same places of the face.
 #[test]
 fn the_shadow_depends_on_head_and_light_alone() {
-    let (gpu, scene) = (gpu(), heroine());
+    let (gpu, scene) = (gpu(), anime_heroine());
     let view = face(&scene, 256);
     let reference = render(&gpu, &scene, &view);
     let mut moved = view.clone();
@@ -90,7 +82,7 @@ fn the_shadow_depends_on_head_and_light_alone() {
 
 #[test]
 fn an_artists_direction_overrides_the_light_and_softness_widens_the_edge() {
-    let (gpu, mut scene) = (gpu(), heroine());
+    let (gpu, mut scene) = (gpu(), anime_heroine());
     let view = face(&scene, 192);
     let picture = |scene: &Scene, view: &View| {
         let mut renderer = Renderer::new(&gpu).expect("a renderer");
@@ -129,7 +121,7 @@ fn an_artists_direction_overrides_the_light_and_softness_widens_the_edge() {
 /// Hands, clothes and other characters cast on the face too, and a face before which nothing stands is as without a map.
 #[test]
 fn others_cast_on_the_face_and_the_face_not_on_itself() {
-    let (gpu, mut scene) = (gpu(), heroine());
+    let (gpu, mut scene) = (gpu(), anime_heroine());
     for part in scene.meshes.iter_mut().flat_map(|m| &mut m.primitives) {
         if !matches!(part.role, Role::Face | Role::Lash | Role::Eye | Role::EyeWhite) {
             part.role = Role::Other;

@@ -1,19 +1,11 @@
 //! Debug channels of shading: each shows its own part of the anime look and nothing else.
 
-use hikage::import::{Limits, load_bytes};
-use hikage::scene::{Framing, Image, Scene};
-use hikage::{Channel, Look, Renderer, View};
+use hikage::scene::{Framing, Image};
+use hikage::{Channel, Renderer, View};
 
 #[path = "support/scene.rs"]
 mod support;
-use support::{gpu, pixel};
-
-fn heroine() -> Scene {
-    let mut scene =
-        load_bytes("hikage.vrm", &hikage_character::file(), None, &Limits::default()).expect("the file is read");
-    Look::Anime { face: None }.apply(&mut scene);
-    scene
-}
+use support::{anime_heroine, gpu, pixel};
 
 const SHADING: [Channel; 8] = [
     Channel::FaceShadow,
@@ -34,7 +26,7 @@ fn share(image: &Image) -> f64 {
 
 #[test]
 fn every_channel_shows_its_part() {
-    let (gpu, scene) = (gpu(), heroine());
+    let (gpu, scene) = (gpu(), anime_heroine());
     let mut renderer = Renderer::new(&gpu).expect("a renderer");
     let mut uploaded = renderer.upload(&scene).expect("an upload");
     let mut view = View::framed(&scene, Framing::Face, 0.0, [256, 256]);
@@ -65,8 +57,7 @@ fn every_channel_shows_its_part() {
 #[test]
 fn a_plain_look_has_empty_channels() {
     let gpu = gpu();
-    let scene =
-        load_bytes("hikage.vrm", &hikage_character::file(), None, &Limits::default()).expect("the file is read");
+    let scene = support::heroine();
     let mut renderer = Renderer::new(&gpu).expect("a renderer");
     let mut uploaded = renderer.upload(&scene).expect("an upload");
     let view = View::framed(&scene, Framing::Face, 0.0, [96, 96]);

@@ -1,10 +1,9 @@
 //! Flat eyes: cards that lie on one another, lights that stay lit, shadows of lids, and another iris at run time.
 
 use glam::Vec3;
-use hikage::import::{Limits, load_bytes};
 use hikage::material::{Base, Layer, Material, Shading, TextureRef, Toon};
 use hikage::scene::{Framing, Image, Role, Scene};
-use hikage::{Look, Renderer, View};
+use hikage::{Renderer, View};
 
 #[path = "support/scene.rs"]
 mod support;
@@ -129,9 +128,7 @@ fn another_picture_takes_the_place_of_a_card() {
 #[test]
 fn lids_shade_the_eyes() {
     let gpu = gpu();
-    let mut with =
-        load_bytes("hikage.vrm", &hikage_character::file(), None, &Limits::default()).expect("the file is read");
-    Look::Anime { face: None }.apply(&mut with);
+    let mut with = support::anime_heroine();
     let mut without = with.clone();
     for material in &mut without.materials {
         material.bangs_shadow = material.bangs_shadow.map(|b| hikage::material::BangsShadow { lids: false, ..b });

@@ -1,7 +1,6 @@
 //! Eyes and brows through the bangs, on a whole character.
 
 use glam::Mat4;
-use hikage::import::{Limits, load_bytes};
 use hikage::scene::{EyesThrough, Framing, Image, Scene};
 use hikage::{Channel, View};
 
@@ -10,8 +9,7 @@ mod support;
 use support::{gpu, render};
 
 fn heroine(through: Option<EyesThrough>) -> Scene {
-    let mut scene =
-        load_bytes("hikage.vrm", &hikage_character::file(), None, &Limits::default()).expect("the file is read");
+    let mut scene = support::heroine();
     scene.eyes_through = through;
     scene
 }

@@ -2,7 +2,6 @@
 
 use glam::{Mat4, Quat, Vec3};
 use hikage::color::LinearRgb;
-use hikage::import::{Limits, load_bytes};
 use hikage::material::{AngleMapping, FaceShadow};
 use hikage::motion::Pose;
 use hikage::scene::{Ambient, Framing, HumanBone, Image, Role, Scene};
@@ -14,9 +13,7 @@ mod support;
 use support::gpu;
 
 fn heroine() -> Scene {
-    let mut scene =
-        load_bytes("hikage.vrm", &hikage_character::file(), None, &Limits::default()).expect("the file is read");
-    Look::Anime { face: None }.apply(&mut scene);
+    let mut scene = support::anime_heroine();
     // The face's own shadow alone: what else the look adds has tests of its own.
     for material in &mut scene.materials {
         (material.bangs_shadow, material.highlight, material.depth_rim) = (None, None, None);

@@ -106,6 +106,13 @@ fn an_anime_look_is_the_base_and_false_switches_sections_off() {
     let face = scene.materials.iter().find(|m| m.name == "Face").expect("a face");
     assert!(face.face_shadow.is_some() && face.bangs_shadow.is_some() && face.face_paint.is_none());
     assert!(scene.materials.iter().filter(|m| m.name.starts_with("Hair")).all(|m| m.highlight.is_none()));
+    // Skin, white of the eye and mouth have shadow colours of their own.
+    let of = |name: &str| {
+        let material = scene.materials.iter().find(|m| m.name == name).expect(name);
+        material.bangs_shadow.expect(name).color
+    };
+    let colors = [of("Face"), of("EyeWhite"), of("Mouth")];
+    assert!(colors[0] != colors[1] && colors[1] != colors[2] && colors[0] != colors[2], "{colors:?}");
     let mut scene = heroine();
     apply("eyes_through = false\nbangs = false", &mut scene).expect("a good look");
     assert!(scene.eyes_through.is_none() && scene.bangs.is_none());

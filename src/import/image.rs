@@ -24,9 +24,7 @@ const PNG_SIGNATURE: &[u8] = b"\x89PNG\r\n\x1a\n";
 pub fn load(path: impl AsRef<Path>) -> Result<Image> {
     let path = path.as_ref();
     let limits = Limits::default();
-    let name = path.display().to_string();
-    let bytes = read_regular(path, &limits).map_err(|e| read_error(&name, e, &limits))?;
-    let mut image = decode(&name, &bytes, &limits)?;
+    let mut image = decode(&path.display().to_string(), &read(path, &limits)?, &limits)?;
     image.name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     Ok(image)
 }
@@ -38,8 +36,7 @@ pub fn load(path: impl AsRef<Path>) -> Result<Image> {
 pub fn load_texels(path: impl AsRef<Path>) -> Result<Texels> {
     let path = path.as_ref();
     let limits = Limits::default();
-    let name = path.display().to_string();
-    let bytes = read_regular(path, &limits).map_err(|e| read_error(&name, e, &limits))?;
+    let bytes = read(path, &limits)?;
     let texels = probe("image", &bytes, &limits).and_then(|p| {
         if p.bits == 16 {
             p.decode_wide("image", &limits)
@@ -47,7 +44,7 @@ pub fn load_texels(path: impl AsRef<Path>) -> Result<Texels> {
             Ok(Texels::from(&p.decode("image", &limits)?))
         }
     });
-    texels.map_err(|fault| fault.into_error(&name))
+    texels.map_err(|fault| fault.into_error(&path.display().to_string()))
 }
 
 /// Decodes an image in memory. `name` stands in errors and becomes the name of the image.
@@ -59,8 +56,13 @@ pub fn decode(name: &str, bytes: &[u8], limits: &Limits) -> Result<Image> {
     decoded.map(|image| Image { name: name.to_owned(), ..image }).map_err(|fault| fault.into_error(name))
 }
 
+/// Reads a regular file within the limits.
+pub(crate) fn read(path: &Path, limits: &Limits) -> Result<Vec<u8>> {
+    read_regular(path, limits).map_err(|fault| read_error(&path.display().to_string(), fault, limits))
+}
+
 /// The public error of a failed read.
-pub(super) fn read_error(name: &str, fault: ReadFault, limits: &Limits) -> Error {
+fn read_error(name: &str, fault: ReadFault, limits: &Limits) -> Error {
     match fault {
         ReadFault::Io(e) => Error::io(name, &e),
         ReadFault::NotRegular => Error::Io { path: name.to_owned(), reason: "not a regular file".into() },

@@ -85,7 +85,7 @@ pub fn load(path: impl AsRef<Path>) -> Result<Scene> {
 pub fn load_with(path: impl AsRef<Path>, limits: &Limits) -> Result<Scene> {
     let path = path.as_ref();
     let name = path.display().to_string();
-    let bytes = files::read_regular(path, limits).map_err(|e| image::read_error(&name, e, limits))?;
+    let bytes = image::read(path, limits)?;
     let folder = path.parent().map(|p| if p.as_os_str().is_empty() { Path::new(".") } else { p });
     load_bytes(&name, &bytes, folder, limits)
 }

@@ -65,27 +65,22 @@ const ROUNDED: f32 = 0.6;
 fn round_hair(scene: &mut Scene) {
     let Some((low, high)) = scene.face_box(None) else { return };
     let middle = (low + high) * 0.5;
-    let world = scene.rest_world_from_nodes();
-    let carriers: Vec<(usize, usize)> =
-        scene.nodes.iter().enumerate().filter_map(|(n, node)| Some((node.mesh?, n))).collect();
-    let mut done = BTreeSet::new();
-    for (mesh, node) in carriers.into_iter().filter(|(mesh, _)| done.insert(*mesh)) {
-        let matrix = scene.rest_placement(&world, node);
+    scene.for_each_hair(|part, matrix| {
         let back = matrix.inverse();
-        let Some(mesh) = scene.meshes.get_mut(mesh).filter(|_| back.is_finite()) else { continue };
-        for part in mesh.primitives.iter_mut().filter(|p| matches!(p.role, Role::Hair | Role::HairFront)) {
-            for (normal, position) in part.normals.iter_mut().zip(&part.positions) {
-                let out = matrix.transform_point3(Vec3::from(*position)) - middle;
-                let round = out.with_y(out.y.max(0.0)).normalize_or(Vec3::Y);
-                let own = Vec3::from(*normal);
-                let round = back.transform_vector3(round).normalize_or(own);
-                // The inner side of a lock keeps its own.
-                let t = ((own.dot(round) + 0.2) / 0.6).clamp(0.0, 1.0);
-                let turned = own.lerp(round, ROUNDED * t * t * (3.0 - 2.0 * t));
-                *normal = turned.normalize_or(own).to_array();
-            }
+        if !back.is_finite() {
+            return;
         }
-    }
+        for (normal, position) in part.normals.iter_mut().zip(&part.positions) {
+            let out = matrix.transform_point3(Vec3::from(*position)) - middle;
+            let round = out.with_y(out.y.max(0.0)).normalize_or(Vec3::Y);
+            let own = Vec3::from(*normal);
+            let round = back.transform_vector3(round).normalize_or(own);
+            // The inner side of a lock keeps its own.
+            let t = ((own.dot(round) + 0.2) / 0.6).clamp(0.0, 1.0);
+            let turned = own.lerp(round, ROUNDED * t * t * (3.0 - 2.0 * t));
+            *normal = turned.normalize_or(own).to_array();
+        }
+    });
 }
 
 /// A band that follows view and light: painted, where the file carries one, else round the head.

@@ -6,9 +6,8 @@ use std::f32::consts::PI;
 
 use glam::Vec3;
 
-use super::anime::materials_of;
 use crate::material::{Highlight, TextureRef};
-use crate::scene::{Filter, Image, Role, Sampler, Scene, Texture, Wrap};
+use crate::scene::{Filter, Image, Sampler, Scene, Texture, Wrap};
 
 /// Size of the painted band, texels: round half the head, and from pole to pole.
 const SIZE: [u32; 2] = [1024, 512];
@@ -23,15 +22,10 @@ pub(super) fn add(scene: &mut Scene, materials: &BTreeSet<usize>) {
     // A little behind and above the middle of the face lies that of the skull.
     let size = high - low;
     let middle = (low + high) * 0.5 + Vec3::new(0.0, 0.1, 0.0) * size.y;
-    let taken: BTreeSet<usize> = all_parts(scene, materials, |uvs| uvs > 1);
-    let free: BTreeSet<usize> = materials.difference(&taken).copied().collect();
-    let wrapped = wrap(scene, &free, middle);
-    let lit: BTreeSet<usize> = [Role::Hair, Role::HairFront]
-        .into_iter()
-        .flat_map(|role| materials_of(scene, role))
-        .filter(|m| wrapped.contains(m))
-        .collect();
-    if lit.is_empty() {
+    let parts = scene.meshes.iter().flat_map(|m| &m.primitives);
+    let taken: BTreeSet<usize> = parts.filter(|p| p.uvs.len() > 1).map(|p| p.material).collect();
+    let wrapped = wrap(scene, &(materials - &taken), middle);
+    if wrapped.is_empty() {
         return;
     }
     scene.images.push(paint());
@@ -40,7 +34,7 @@ pub(super) fn add(scene: &mut Scene, materials: &BTreeSet<usize>) {
         Sampler { wrap_u: clamp, wrap_v: clamp, mag: Filter::Linear, min: Filter::Linear, mip: Some(Filter::Nearest) };
     scene.textures.push(Texture { image: scene.images.len() - 1, sampler });
     let map = TextureRef { texture: scene.textures.len() - 1, uv_set: 1, ..TextureRef::default() };
-    for material in lit {
+    for material in wrapped {
         let base = scene.materials[material].base.color;
         // The thin line below is of a paler tone of the hair.
         let tone = |c: f32| 0.45 + 0.55 * c.clamp(0.0, 1.0);
@@ -58,40 +52,27 @@ pub(super) fn add(scene: &mut Scene, materials: &BTreeSet<usize>) {
     }
 }
 
-/// Materials of which a part has such a number of sets of texture coordinates.
-fn all_parts(scene: &Scene, materials: &BTreeSet<usize>, of: impl Fn(usize) -> bool) -> BTreeSet<usize> {
-    let parts = scene.meshes.iter().flat_map(|m| &m.primitives);
-    parts.map(|p| (p.material, p.uvs.len())).filter(|(m, n)| materials.contains(m) && of(*n)).map(|(m, _)| m).collect()
-}
-
 /// Adds the coordinates as the second set: u is the angle from the front over π, alike on both sides so that no seam runs
 /// down the back, v that from above. Gives the materials that have them.
 fn wrap(scene: &mut Scene, materials: &BTreeSet<usize>, middle: Vec3) -> BTreeSet<usize> {
-    let world = scene.rest_world_from_nodes();
     let mut done = BTreeSet::new();
-    let carriers: Vec<(usize, usize)> =
-        scene.nodes.iter().enumerate().rev().filter_map(|(n, node)| Some((node.mesh?, n))).collect();
-    for (mesh, node) in carriers {
-        let matrix = scene.rest_placement(&world, node);
-        for primitive in &mut scene.meshes[mesh].primitives {
-            let is_hair = matches!(primitive.role, Role::Hair | Role::HairFront);
-            if !is_hair || primitive.uvs.len() > 1 || !materials.contains(&primitive.material) {
-                continue;
-            }
-            let at = |(position, normal): (&[f32; 3], &[f32; 3])| {
-                let out = (matrix.transform_point3(Vec3::from(*position)) - middle).normalize_or(Vec3::Y);
-                let normal = matrix.transform_vector3(Vec3::from(*normal)).normalize_or(out);
-                let bent = out.lerp(normal, OF_NORMAL).normalize_or(out);
-                [out.x.abs().atan2(out.z) / PI, bent.y.clamp(-1.0, 1.0).acos() / PI]
-            };
-            let set: Vec<[f32; 2]> = primitive.positions.iter().zip(&primitive.normals).map(at).collect();
-            if primitive.uvs.is_empty() {
-                primitive.uvs.push(vec![[0.0; 2]; set.len()]);
-            }
-            primitive.uvs.push(set);
-            done.insert(primitive.material);
+    scene.for_each_hair(|part, matrix| {
+        if !materials.contains(&part.material) {
+            return;
         }
-    }
+        let at = |(position, normal): (&[f32; 3], &[f32; 3])| {
+            let out = (matrix.transform_point3(Vec3::from(*position)) - middle).normalize_or(Vec3::Y);
+            let normal = matrix.transform_vector3(Vec3::from(*normal)).normalize_or(out);
+            let bent = out.lerp(normal, OF_NORMAL).normalize_or(out);
+            [out.x.abs().atan2(out.z) / PI, bent.y.clamp(-1.0, 1.0).acos() / PI]
+        };
+        let set: Vec<[f32; 2]> = part.positions.iter().zip(&part.normals).map(at).collect();
+        if part.uvs.is_empty() {
+            part.uvs.push(vec![[0.0; 2]; set.len()]);
+        }
+        part.uvs.push(set);
+        done.insert(part.material);
+    });
     done
 }
 

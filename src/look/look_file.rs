@@ -12,7 +12,7 @@ use super::{
     values::{merge, nearest, no_such, not_finite, units},
 };
 use crate::color::LinearRgb;
-use crate::import::image;
+use crate::import::{Limits, image};
 use crate::scene::{Ambient, DirectionalLight, Image, Lights, Role, Sampler, Scene, Texture, Wrap};
 use crate::sdf::{FaceLayout, FaceMap, Texels};
 use crate::{Error, Result};
@@ -133,16 +133,12 @@ impl LookFile {
     /// The file cannot be read, is over 1 MiB, is not TOML, or has a key that does not exist.
     pub fn read(path: impl AsRef<Path>) -> Result<Self> {
         let path = path.as_ref();
-        let size = std::fs::metadata(path).map_err(|e| Error::io(path, &e))?;
-        let name = path.display().to_string();
-        if !size.is_file() {
-            return Err(Error::Io { path: name, reason: "is not a regular file".to_owned() });
-        }
-        if size.len() > MAX_BYTES {
-            let (pointer, unit) = ("file".to_owned(), "bytes");
-            return Err(Error::Limit { path: name, pointer, found: size.len(), limit: MAX_BYTES, unit });
-        }
-        let text = std::fs::read_to_string(path).map_err(|e| Error::io(path, &e))?;
+        let bytes = image::read(path, &Limits { file_bytes: MAX_BYTES, ..Limits::default() })?;
+        let text = String::from_utf8(bytes).map_err(|e| Error::Input {
+            path: path.display().to_string(),
+            pointer: format!("byte {}", e.utf8_error().valid_up_to()),
+            message: "is not UTF-8; TOML is UTF-8 text".to_owned(),
+        })?;
         Self::parse(path, &text)
     }
 

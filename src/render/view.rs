@@ -99,6 +99,47 @@ pub enum Channel {
 }
 
 impl Channel {
+    /// All channels.
+    pub const ALL: &'static [Self] = &[
+        Self::Final,
+        Self::Normal,
+        Self::Depth,
+        Self::PartId,
+        Self::FaceShadow,
+        Self::Transition,
+        Self::FacePaint,
+        Self::Highlight,
+        Self::BangsShadow,
+        Self::Layer,
+        Self::DepthRim,
+        Self::EyesThrough,
+    ];
+
+    /// Its name: `final`, `normal`, `depth`, `part-id`, `face-shadow` and so on.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Final => "final",
+            Self::Normal => "normal",
+            Self::Depth => "depth",
+            Self::PartId => "part-id",
+            Self::FaceShadow => "face-shadow",
+            Self::Transition => "transition",
+            Self::FacePaint => "face-paint",
+            Self::Highlight => "highlight",
+            Self::BangsShadow => "bangs-shadow",
+            Self::Layer => "layer",
+            Self::DepthRim => "depth-rim",
+            Self::EyesThrough => "eyes-through",
+        }
+    }
+
+    /// The channel of this name.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.iter().copied().find(|c| c.name() == name)
+    }
+
     /// Whether the prepass draws it.
     pub(crate) fn is_geometry(self) -> bool {
         matches!(self, Self::Normal | Self::Depth | Self::PartId)
@@ -276,5 +317,29 @@ fn bounds(scene: &Scene, world: &[Mat4]) -> (Vec3, Vec3) {
         (low, high)
     } else {
         (Vec3::NEG_ONE, Vec3::ONE)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Shaders know the channels by the same numbers and names, and serde by the same names.
+    #[test]
+    fn channels_have_one_name_and_number_everywhere() {
+        let (_, text) = super::super::shaders::ENTRIES.iter().find(|(stem, _)| *stem == "opaque").expect("an entry");
+        let module = naga::front::wgsl::parse_str(text).expect("valid WGSL");
+        for channel in Channel::ALL {
+            assert_eq!(Channel::from_name(channel.name()), Some(*channel));
+            assert_eq!(serde_json::to_value(channel).expect("a name"), channel.name());
+            let Some(code) = channel.shader_code().filter(|_| *channel != Channel::EyesThrough) else { continue };
+            let name = format!("CHANNEL_{}", channel.name().to_uppercase().replace('-', "_"));
+            let (_, constant) = module.constants.iter().find(|(_, c)| c.name.as_deref() == Some(&name)).expect(&name);
+            let value = &module.global_expressions[constant.init];
+            assert!(
+                matches!(value, naga::Expression::Literal(naga::Literal::U32(v)) if *v == code),
+                "{name}: {value:?}"
+            );
+        }
     }
 }

@@ -29,6 +29,22 @@ impl Scene {
         joint.unwrap_or_else(|| world.get(node).copied().unwrap_or_default())
     }
 
+    /// Calls `change` with every part of hair and what takes it to the world at rest; a mesh under several nodes comes once,
+    /// where the first of them places it.
+    pub(crate) fn for_each_hair(&mut self, mut change: impl FnMut(&mut Primitive, Mat4)) {
+        let world = self.rest_world_from_nodes();
+        let mut done = BTreeSet::new();
+        for node in 0..self.nodes.len() {
+            let Some(mesh) = self.nodes[node].mesh.filter(|mesh| done.insert(*mesh)) else { continue };
+            let matrix = self.rest_placement(&world, node);
+            for part in self.meshes.get_mut(mesh).into_iter().flat_map(|m| &mut m.primitives) {
+                if matches!(part.role, Role::Hair | Role::HairFront) {
+                    change(part, matrix);
+                }
+            }
+        }
+    }
+
     /// How much of each vertex of a primitive under `node` follows a set of nodes. Range 0..1.
     pub(crate) fn shares(&self, node: usize, primitive: &Primitive, set: &BTreeSet<usize>) -> Vec<f32> {
         let skin = self.nodes[node].skin.and_then(|s| self.skins.get(s));

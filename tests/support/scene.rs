@@ -16,6 +16,19 @@ pub fn gpu() -> Gpu {
     Gpu::headless(name.as_deref()).unwrap_or_else(|e| panic!("{e}"))
 }
 
+/// The built-in character as her file says.
+pub fn heroine() -> Scene {
+    let limits = hikage::import::Limits::default();
+    hikage::import::load_bytes("hikage.vrm", &hikage_character::file(), None, &limits).expect("the file is read")
+}
+
+/// The built-in character with the anime look, its face map made from her mesh.
+pub fn anime_heroine() -> Scene {
+    let mut scene = heroine();
+    hikage::Look::Anime { face: None }.apply(&mut scene);
+    scene
+}
+
 /// A material with a red lit and a blue shade colour.
 pub fn two_tone() -> Material {
     Material {

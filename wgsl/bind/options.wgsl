@@ -31,7 +31,7 @@ override FACE_MASKS: bool = false;
 override TRANSITION: bool = false;
 // Blush and lines.
 override FACE_PAINT: bool = false;
-// So do lids and lashes.
+// Lids and lashes cast theirs on it too.
 override LID_SHADOW: bool = false;
 // A painted highlight that moves; a second layer of it; whether that moves otherwise; strands that break both.
 override HIGHLIGHT: bool = false;

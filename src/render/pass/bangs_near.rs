@@ -5,7 +5,7 @@ use crate::{
     render::{pass::bangs_shadow, shaders},
 };
 
-/// Texels of the map along a block; `BANGS_BLOCK` in `wgsl/lib/bangs.wgsl`.
+/// Texels of the map along a block; `BANGS_BLOCK` in `wgsl/lib/bangs.wgsl` (a test compares them).
 pub(crate) const BLOCK: u32 = 8;
 
 /// The pipeline.
@@ -77,5 +77,19 @@ impl BangsNearPass {
         pass.set_pipeline(&self.pipeline);
         pass.set_bind_group(0, inputs.map, &[]);
         pass.draw(0..3, 0..1);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn blocks_are_as_large_in_the_shader() {
+        let (_, text) = shaders::ENTRIES.iter().find(|(stem, _)| *stem == "bangs_near").expect("an entry");
+        let module = naga::front::wgsl::parse_str(text).expect("valid WGSL");
+        let named = module.constants.iter().find(|(_, c)| c.name.as_deref() == Some("BANGS_BLOCK"));
+        let value = &module.global_expressions[named.expect("a constant").1.init];
+        assert!(matches!(value, naga::Expression::Literal(naga::Literal::I32(v)) if *v == BLOCK as i32), "{value:?}");
     }
 }

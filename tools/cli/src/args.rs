@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 
 use clap::ValueEnum;
-use hikage::Background;
 use hikage::color::Srgb;
 use hikage::motion::Stance;
 use hikage::scene::Framing;
+use hikage::{Background, Channel};
 
 /// Longest side of a picture: the size of textures that every adapter has.
 pub(crate) const MAX_SIDE: u32 = 8192;
@@ -69,6 +69,14 @@ pub(crate) fn size(text: &str) -> Result<[u32; 2], String> {
 pub(crate) fn stance(text: &str) -> Result<Stance, String> {
     Stance::from_name(text).ok_or_else(|| {
         let names: Vec<&str> = Stance::ALL.iter().map(|s| s.name()).collect();
+        format!("expected one of {}", names.join(", "))
+    })
+}
+
+/// `--channel`.
+pub(crate) fn channel(text: &str) -> Result<Channel, String> {
+    Channel::from_name(text).ok_or_else(|| {
+        let names: Vec<&str> = Channel::ALL.iter().map(|c| c.name()).collect();
         format!("expected one of {}", names.join(", "))
     })
 }

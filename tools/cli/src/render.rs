@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use clap::ValueEnum;
 use glam::Vec3;
 use hikage::motion::{Pose, Stance};
 use hikage::picture::{encode_png, write_atomic};
@@ -75,63 +74,17 @@ pub(crate) struct Args {
     /// Moment of texture animations.
     #[arg(long, value_name = "SECONDS", default_value = "0", value_parser = args::time)]
     time: f32,
-    /// What is shown of each pixel; part-id is 16 bits in red (low) and green (high), 0 for background.
-    #[arg(long, value_enum, value_name = "CHANNEL", default_value_t = ChannelName::Final)]
-    channel: ChannelName,
+    /// What is shown of each pixel: final, normal, depth, part-id (16 bits in red (low) and green (high), 0 for
+    /// background), or a part of the anime look: face-shadow, transition, face-paint, highlight, bangs-shadow, layer,
+    /// depth-rim, eyes-through.
+    #[arg(long, value_name = "CHANNEL", default_value = "final", value_parser = args::channel)]
+    channel: Channel,
     /// Adapter, by a part of its name (`hikage adapters`).
     #[arg(long, value_name = "NAME")]
     adapter: Option<String>,
     /// Write timings, sizes and warnings here as JSON.
     #[arg(long, value_name = "REPORT.json")]
     report: Option<PathBuf>,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize)]
-#[serde(rename_all = "kebab-case")]
-enum ChannelName {
-    /// The finished picture.
-    Final,
-    /// View-space normals.
-    Normal,
-    /// Depth.
-    Depth,
-    /// Number of the part, 16 bits in red (low) and green (high); 0 is background.
-    PartId,
-    /// Share of light by the face's threshold map.
-    FaceShadow,
-    /// Tint of light about to turn into shade.
-    Transition,
-    /// Blush and lines.
-    FacePaint,
-    /// Painted highlights.
-    Highlight,
-    /// Light that bangs, lids and lashes let through.
-    BangsShadow,
-    /// Cards of a stack.
-    Layer,
-    /// Rim by depth.
-    DepthRim,
-    /// Eyes and brows seen through hair.
-    EyesThrough,
-}
-
-impl From<ChannelName> for Channel {
-    fn from(name: ChannelName) -> Self {
-        match name {
-            ChannelName::Final => Self::Final,
-            ChannelName::Normal => Self::Normal,
-            ChannelName::Depth => Self::Depth,
-            ChannelName::PartId => Self::PartId,
-            ChannelName::FaceShadow => Self::FaceShadow,
-            ChannelName::Transition => Self::Transition,
-            ChannelName::FacePaint => Self::FacePaint,
-            ChannelName::Highlight => Self::Highlight,
-            ChannelName::BangsShadow => Self::BangsShadow,
-            ChannelName::Layer => Self::Layer,
-            ChannelName::DepthRim => Self::DepthRim,
-            ChannelName::EyesThrough => Self::EyesThrough,
-        }
-    }
 }
 
 /// Report of a rendering.
@@ -161,7 +114,7 @@ struct AdapterReport<'a> {
 struct OptionsReport<'a> {
     size: [u32; 2],
     samples: u32,
-    channel: ChannelName,
+    channel: Channel,
     time_s: f32,
     background: String,
     expressions: &'a [(String, f32)],
@@ -261,7 +214,7 @@ fn view(args: &Args, shot: &Shot, scene: &Scene, pose: &Pose) -> Result<View, Fa
         view.background = background;
     }
     view.time_s = args.time;
-    view.channel = args.channel.into();
+    view.channel = args.channel;
     Ok(view)
 }
 
