@@ -54,11 +54,11 @@ fn thresholds_match_the_vectors() {
 
 #[test]
 fn the_built_in_face_keys_bake_and_come_back() {
-    let key = |(angle_rad, side, lit)| Key { angle_rad, mask: Mask { width: side, height: side, lit } };
+    let key = |(angle_rad, side, coverage)| Key { angle_rad, mask: Mask { width: side, height: side, coverage } };
     let keys: Vec<Key> = hikage_character::head::sdf::keys().into_iter().map(key).collect();
     let map = bake(&keys).expect("her keys are nested");
     for key in &keys {
-        let wrong = map.mask(key.angle_rad).lit.iter().zip(&key.mask.lit).filter(|(a, b)| a != b).count();
+        let wrong = map.mask(key.angle_rad).lit().zip(key.mask.lit()).filter(|(a, b)| a != b).count();
         assert_eq!(wrong, 0, "texels at {} rad", key.angle_rad);
     }
 }

@@ -1,8 +1,13 @@
-//! Exact Euclidean distances in linear time (Felzenszwalb and Huttenlocher 2012; Meijster et al. 2000).
+//! Exact Euclidean distances in linear time: vertical distances first, then along each row the lower envelope of one
+//! parabola a column (Meijster et al. 2000; Felzenszwalb and Huttenlocher 2012).
+//!
+//! Masks of a threshold map are nested, so that one number a texel says all: its level, the count of keys at which it is
+//! lit. What stands between two keys needs the distances to the nearest lower and to the nearest higher level only.
 
 use rayon::prelude::*;
 
 use super::Mask;
+use super::columns::{Columns, FAR, MAX_SIDE, Nearest, Sweep};
 
 /// The distance where there is no such texel.
 pub const NEVER: u32 = u32::MAX;
@@ -11,80 +16,202 @@ pub const NEVER: u32 = u32::MAX;
 /// texels². [`NEVER`] where there is none. Nothing lies outside the mask.
 ///
 /// # Panics
-/// Where the mask holds another number of texels than its sides say, or a side is over 32768.
+/// Where the mask holds another number of texels than its sides say, or a side is over [`MAX_SIDE`].
 #[must_use]
 pub fn distance_squared(mask: &Mask, to: bool) -> Vec<u32> {
     let (width, height) = (mask.width as usize, mask.height as usize);
-    assert!(mask.lit.len() == width * height, "a mask of {width} x {height} with {} texels", mask.lit.len());
-    assert!(width.max(height) <= 1 << 15, "squared distances would not fit 32 bits");
-    let columns = along_columns(mask, to);
-    let mut squared = vec![NEVER; columns.len()];
-    squared.par_chunks_mut(width.max(1)).zip(columns.par_chunks(width.max(1))).for_each_init(
-        || Envelope { sites: Vec::with_capacity(width), starts: Vec::with_capacity(width) },
-        |envelope, (out, column)| envelope.row(column, out),
-    );
+    assert!(mask.coverage.len() == width * height, "a mask of {width} x {height} with {} texels", mask.coverage.len());
+    assert!(mask.width.max(mask.height) <= MAX_SIDE, "a side is over {MAX_SIDE} texels");
+    let levels: Vec<u8> = mask.lit().map(u8::from).collect();
+    let mut squared = vec![0; levels.len()];
+    let from = u8::from(!to);
+    for_each_row(&levels, width, 2, &mut squared, |y, row, sweep, scratch, out| {
+        scratch.find_runs(row);
+        let set = if to { &sweep.above[0] } else { &sweep.below[1] };
+        scratch.to_set(from, y, set);
+        for (start, end) in scratch.runs_of(from) {
+            out[start..end].copy_from_slice(&scratch.squared[start..end]);
+        }
+    });
     squared
 }
 
-/// Distance to the nearest such texel of the same column; [`NEVER`] where there is none.
-fn along_columns(mask: &Mask, to: bool) -> Vec<u32> {
-    let width = mask.width as usize;
-    let mut down = vec![NEVER; mask.lit.len()];
-    let next = |of: u32| if of == NEVER { NEVER } else { of + 1 };
-    for i in 0..down.len() {
-        down[i] = if mask.lit[i] == to {
-            0
-        } else if i >= width {
-            next(down[i - width])
+/// Calls back for every row with its levels, the vertical distances at it, and its part of `out`, on all cores.
+pub(super) fn for_each_row<T: Send>(
+    levels: &[u8],
+    width: usize,
+    count: usize,
+    out: &mut [T],
+    each: impl Fn(i16, &[u8], &Sweep, &mut Scratch, &mut [T]) + Sync,
+) {
+    if levels.is_empty() {
+        return;
+    }
+    let columns = Columns::new(levels, width);
+    let height = levels.len() / width;
+    // Each band looks up where it begins: few bands, but enough for uneven ones to even out.
+    let rows = height.div_ceil(rayon::current_num_threads() * 4).max(32);
+    out.par_chunks_mut(rows * width).zip(levels.par_chunks(rows * width)).enumerate().for_each(|(band, (out, own))| {
+        let top = band * rows;
+        let mut sweep = Sweep::new(&columns, count, top);
+        let mut scratch = Scratch::new(width);
+        for (y, (out, row)) in out.chunks_exact_mut(width).zip(own.chunks_exact(width)).enumerate() {
+            if y > 0 {
+                sweep.advance(&own[(y - 1) * width..y * width], row);
+            }
+            each((top + y) as i16, row, &sweep, &mut scratch, out);
+        }
+    });
+}
+
+/// Memory for one row at a time.
+pub(super) struct Scratch {
+    /// Squared distances that were found last, texels²; [`NEVER`] for none.
+    pub(super) squared: Vec<u32>,
+    vertical: Vec<i16>,
+    /// Start, end and level of each run of the row.
+    runs: Vec<(usize, usize, u8)>,
+    /// Columns whose parabola is lowest somewhere: column, height plus square of the column, and where it begins to be.
+    sites: Vec<(i32, i32, f64)>,
+    /// 1 / (2 d): a multiplication is faster than a division, and a rounding error matters where two sites tie only.
+    halves: Vec<f64>,
+}
+
+impl Scratch {
+    fn new(width: usize) -> Self {
+        Self {
+            squared: vec![NEVER; width],
+            vertical: vec![0; width],
+            runs: Vec::new(),
+            sites: Vec::with_capacity(width),
+            halves: (0..width).map(|d| 0.5 / (d as f64)).collect(),
+        }
+    }
+
+    /// Splits a row into runs of equal levels.
+    pub(super) fn find_runs(&mut self, row: &[u8]) {
+        self.runs.clear();
+        let mut start = 0;
+        while let Some(&level) = row.get(start) {
+            let mut end = start + 1;
+            while row.get(end..end + 16).is_some_and(|block| block.iter().all(|l| *l == level)) {
+                end += 16;
+            }
+            while row.get(end) == Some(&level) {
+                end += 1;
+            }
+            self.runs.push((start, end, level));
+            start = end;
+        }
+    }
+
+    /// Start and end of the runs of a level.
+    pub(super) fn runs_of(&self, level: u8) -> impl Iterator<Item = (usize, usize)> {
+        self.runs.iter().filter(move |r| r.2 == level).map(|r| (r.0, r.1))
+    }
+
+    /// Finds the distances of all texels of a level to a set that they are not in.
+    pub(super) fn to_set(&mut self, level: u8, y: i16, set: &Nearest) {
+        let width = self.vertical.len();
+        // Columns that runs reach; runs whose columns overlap share one envelope, so that no column is visited twice.
+        let (mut first, mut group): (usize, Option<(usize, usize)>) = (0, None);
+        for index in 0..self.runs.len() {
+            let (start, end, own) = self.runs[index];
+            if own != level {
+                continue;
+            }
+            let reach = self.reach(start, end, y, set);
+            group = match group {
+                Some((left, right)) if reach.0 <= right => Some((left.min(reach.0), right.max(reach.1))),
+                Some(done) => {
+                    self.envelope(done, first..index, level, y, set);
+                    first = index;
+                    Some(reach)
+                }
+                None => {
+                    first = index;
+                    Some(reach)
+                }
+            };
+        }
+        if let Some(last) = group {
+            let runs = first..self.runs.len();
+            self.envelope((last.0, last.1.min(width - 1)), runs, level, y, set);
+        }
+    }
+
+    /// First and last column in which the nearest texel of the set can be, for any texel of a run: not farther than the
+    /// nearest in the own column, nor than the run's ends where the set begins there.
+    fn reach(&mut self, start: usize, end: usize, y: i16, set: &Nearest) -> (usize, usize) {
+        let in_set = |x: usize| set.distance(x, y) == 0;
+        let left = if start > 0 && in_set(start - 1) {
+            start as i16 - 1
         } else {
-            NEVER
+            -FAR
         };
+        let right = if self.vertical.len() > end && in_set(end) {
+            end as i16
+        } else {
+            i16::MAX
+        };
+        let (mut low, mut high) = (i16::MAX, 0i16);
+        for (i, (last, next)) in set.last[start..end].iter().zip(&set.next[start..end]).enumerate() {
+            let x = (start + i) as i16;
+            let vertical = (y - last).min(next - y).clamp(0, FAR - 1);
+            let bound = vertical.min(x - left).min(right - x);
+            (low, high) = (low.min(x - bound), high.max(x + bound));
+        }
+        (low.max(0) as usize, (high as usize).min(self.vertical.len() - 1))
     }
-    for i in (0..down.len().saturating_sub(width)).rev() {
-        down[i] = down[i].min(next(down[i + width]));
-    }
-    down
-}
 
-/// Lower envelope of parabolas over one row.
-struct Envelope {
-    /// Columns whose parabola is lowest somewhere, from the left.
-    sites: Vec<usize>,
-    /// First column at which each of them is.
-    starts: Vec<i64>,
-}
-
-impl Envelope {
-    fn row(&mut self, column: &[u32], out: &mut [u32]) {
-        let Self { sites, starts } = self;
+    /// Lower envelope over the columns `left..=right`, read off at the runs of the level.
+    fn envelope(
+        &mut self,
+        (left, right): (usize, usize),
+        runs: std::ops::Range<usize>,
+        level: u8,
+        y: i16,
+        set: &Nearest,
+    ) {
+        let Self { squared, vertical, runs: all, sites, halves } = self;
+        let columns = left..right + 1;
+        for ((v, last), next) in
+            vertical[columns.clone()].iter_mut().zip(&set.last[columns.clone()]).zip(&set.next[columns.clone()])
+        {
+            *v = (y - last).min(next - y).clamp(0, FAR);
+        }
         sites.clear();
-        starts.clear();
-        let height = |q: usize| i64::from(column[q]) * i64::from(column[q]);
-        for q in (0..column.len()).filter(|q| column[*q] != NEVER) {
+        for (x, v) in columns.clone().zip(&vertical[columns]).filter(|(_, v)| **v < FAR) {
+            let (x, v) = (x as i32, i32::from(*v));
+            let height = v * v + x * x;
             let start = loop {
-                let Some(&last) = sites.last() else { break 0 };
-                // The first whole column at which the new parabola lies below the last one.
-                let (a, b) = (last as i64, q as i64);
-                let crossing = (height(q) - height(last) + b * b - a * a).div_euclid(2 * (b - a)) + 1;
-                if crossing > starts[starts.len() - 1] {
+                let Some(&(site, lower, start)) = sites.last() else { break f64::NEG_INFINITY };
+                // Where the new parabola begins to lie below the last one.
+                let crossing = f64::from(height - lower) * halves[(x - site) as usize];
+                if crossing > start {
                     break crossing;
                 }
                 sites.pop();
-                starts.pop();
             };
-            if start < column.len() as i64 {
-                sites.push(q);
-                starts.push(start.max(0));
-            }
+            sites.push((x, height, start));
         }
-        let mut k = 0;
-        for (p, out) in out.iter_mut().enumerate() {
-            while k + 1 < sites.len() && starts[k + 1] <= p as i64 {
-                k += 1;
-            }
-            if let Some(&site) = sites.get(k) {
-                let across = p.abs_diff(site) as i64;
-                *out = (across * across + height(site)) as u32;
+        let mut at = 0;
+        for &(start, end, _) in all[runs].iter().filter(|r| r.2 == level) {
+            let mut x = start;
+            while x < end {
+                while sites.get(at + 1).is_some_and(|s| s.2 < x as f64) {
+                    at += 1;
+                }
+                let Some(&(site, height, _)) = sites.get(at) else {
+                    squared[x..end].fill(NEVER);
+                    break;
+                };
+                let until = sites.get(at + 1).map_or(end, |next| (next.2.floor() as usize + 1).clamp(x + 1, end));
+                let vertical = height - site * site;
+                for (p, out) in (x as i32..).zip(&mut squared[x..until]) {
+                    *out = ((p - site) * (p - site) + vertical) as u32;
+                }
+                x = until;
             }
         }
     }
@@ -97,11 +224,12 @@ mod tests {
     use super::*;
 
     fn brute(mask: &Mask, to: bool) -> Vec<u32> {
+        let lit: Vec<bool> = mask.lit().collect();
         let places = |i: usize| (i as i64 % i64::from(mask.width), i as i64 / i64::from(mask.width));
-        (0..mask.lit.len())
+        (0..lit.len())
             .map(|i| {
                 let (x, y) = places(i);
-                let found = (0..mask.lit.len()).filter(|j| mask.lit[*j] == to).map(places);
+                let found = (0..lit.len()).filter(|j| lit[*j] == to).map(places);
                 found.map(|(a, b)| ((a - x).pow(2) + (b - y).pow(2)) as u32).min().unwrap_or(NEVER)
             })
             .collect()
@@ -115,21 +243,48 @@ mod tests {
 
     #[test]
     fn hard_shapes_match_brute_force() {
-        for (w, h) in [(1, 1), (1, 9), (9, 1), (2, 2), (13, 7), (16, 16)] {
+        for (w, h) in [(1, 1), (1, 9), (9, 1), (1, 80), (2, 2), (13, 7), (16, 16), (40, 70)] {
             check(&Mask::from_fn(w, h, |_, _| true));
             check(&Mask::from_fn(w, h, |_, _| false));
             check(&Mask::from_fn(w, h, |x, y| (x + y) % 2 == 0));
             check(&Mask::from_fn(w, h, |x, y| x == w / 2 && y == h / 2));
+            check(&Mask::from_fn(w, h, |x, y| x != 0 || y != h - 1));
             check(&Mask::from_fn(w, h, |_, y| y == h / 2));
             check(&Mask::from_fn(w, h, |x, _| x == w - 1));
+            check(&Mask::from_fn(w, h, |x, y| 3 * x > 2 * y + 5));
         }
         assert!(distance_squared(&Mask::default(), true).is_empty());
     }
 
     proptest! {
         #[test]
-        fn random_masks_match_brute_force(w in 1u32..20, h in 1u32..20, bits in prop::collection::vec(0u8..8, 400), share in 0u8..8) {
-            check(&Mask::from_fn(w, h, |x, y| bits[(y * 20 + x) as usize] < share));
+        fn random_masks_match_brute_force(w in 1u32..40, h in 1u32..90, bits in prop::collection::vec(0u8..100, 3600), share in 0u8..=100) {
+            check(&Mask::from_fn(w, h, |x, y| bits[(y * 40 + x) as usize] < share));
+        }
+
+        /// Levels as nested keys have them, against one mask for every set.
+        #[test]
+        fn sets_of_all_levels_match_brute_force(w in 1usize..24, h in 1usize..80, noise in prop::collection::vec(0u8..5, 1920)) {
+            let levels: Vec<u8> = noise[..w * h].to_vec();
+            for level in 0..5u8 {
+                for above in [false, true] {
+                    let mut found = vec![0; w * h];
+                    for_each_row(&levels, w, 5, &mut found, |y, row, sweep, scratch, out| {
+                        scratch.find_runs(row);
+                        let set = if above { &sweep.above } else { &sweep.below };
+                        scratch.to_set(level, y, &set[usize::from(level)]);
+                        for (start, end) in scratch.runs_of(level) {
+                            out[start..end].copy_from_slice(&scratch.squared[start..end]);
+                        }
+                    });
+                    let in_set = |l: u8| if above { l > level } else { l < level };
+                    let mask = Mask::from_fn(w as u32, h as u32, |x, y| in_set(levels[y as usize * w + x as usize]));
+                    let expected = brute(&mask, true);
+                    for i in (0..w * h).filter(|i| levels[*i] == level) {
+                        prop_assert_eq!(found[i], expected[i], "level {} above {} at {}", level, above, i);
+                    }
+                }
+            }
         }
     }
 }

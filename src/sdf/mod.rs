@@ -4,14 +4,16 @@
 //! at which it turns dark, by the exact distances to the borders of the two keys round it, so that the border of light
 //! and shade glides from one drawing to the next.
 
+mod columns;
 mod distance;
 mod face_map;
 mod guide;
 mod mask;
 mod threshold;
 
+pub use columns::MAX_SIDE;
 pub use distance::{NEVER, distance_squared};
 pub use face_map::{FaceLayout, FaceMap, MAX_PITCHES, Texels};
 pub use guide::face_map;
-pub use mask::Mask;
+pub use mask::{LIT, Mask};
 pub use threshold::{Key, ThresholdMap, bake};

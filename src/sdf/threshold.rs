@@ -2,7 +2,7 @@
 
 use std::f32::consts::PI;
 
-use super::{FaceLayout, Mask, NEVER, Texels, distance_squared};
+use super::{FaceLayout, LIT, MAX_SIDE, Mask, NEVER, Texels, distance_squared};
 use crate::{Error, Result};
 
 /// What is lit at one angle of the light.
@@ -37,13 +37,13 @@ pub struct ThresholdMap {
 pub fn bake(keys: &[Key]) -> Result<ThresholdMap> {
     check(keys)?;
     let [first, .., last] = keys else { return Err(fault("are fewer than two")) };
-    let mut tau = vec![0f32; first.mask.lit.len()];
+    let mut tau = vec![0f32; first.mask.coverage.len()];
     for pair in keys.windows(2) {
         let [a, b] = pair else { continue };
         blend(a, b, &mut tau);
     }
-    for (tau, lit) in tau.iter_mut().zip(&last.mask.lit) {
-        if *lit {
+    for (tau, lit) in tau.iter_mut().zip(last.mask.lit()) {
+        if lit {
             *tau = 1.0;
         }
     }
@@ -59,12 +59,12 @@ fn check(keys: &[Key]) -> Result<()> {
         if !(0.0..=PI).contains(&key.angle_rad) {
             return Err(fault(format!("have the angle {} rad; expected 0 to pi", key.angle_rad)));
         }
-        let Mask { width, height, lit } = &key.mask;
-        if lit.len() as u64 != u64::from(*width) * u64::from(*height) || lit.is_empty() {
-            return Err(fault(format!("have a mask of {width} x {height} with {} texels", lit.len())));
+        let Mask { width, height, coverage } = &key.mask;
+        if coverage.len() as u64 != u64::from(*width) * u64::from(*height) || coverage.is_empty() {
+            return Err(fault(format!("have a mask of {width} x {height} with {} texels", coverage.len())));
         }
-        if width.max(height) > &(1 << 15) {
-            return Err(fault(format!("have a mask of {width} x {height}; expected at most 32768 a side")));
+        if *width.max(height) > MAX_SIDE {
+            return Err(fault(format!("have a mask of {width} x {height}; expected at most {MAX_SIDE} a side")));
         }
     }
     for pair in keys.windows(2) {
@@ -82,7 +82,7 @@ fn check(keys: &[Key]) -> Result<()> {
                 a.mask.width, a.mask.height, b.mask.width, b.mask.height
             )));
         }
-        let again = || a.mask.lit.iter().zip(&b.mask.lit).enumerate().filter(|(_, (a, b))| !**a && **b);
+        let again = || a.mask.lit().zip(b.mask.lit()).enumerate().filter(|(_, (a, b))| !*a && *b);
         if let Some((i, _)) = again().next() {
             let (x, y) = (i % a.mask.width as usize, i / a.mask.width as usize);
             return Err(fault(format!(
@@ -98,7 +98,7 @@ fn check(keys: &[Key]) -> Result<()> {
 
 /// Thresholds of what is lit at `a` and dark at `b`.
 fn blend(a: &Key, b: &Key, tau: &mut [f32]) {
-    let band = |i: usize| a.mask.lit[i] && !b.mask.lit[i];
+    let band = |i: usize| a.mask.coverage[i] >= LIT && b.mask.coverage[i] < LIT;
     if !(0..tau.len()).any(band) {
         return;
     }
@@ -125,8 +125,8 @@ impl ThresholdMap {
     /// What is lit at an angle of the light, radians.
     #[must_use]
     pub fn mask(&self, angle_rad: f32) -> Mask {
-        let lit = self.tau.iter().map(|tau| *tau > angle_rad / PI).collect();
-        Mask { width: self.width, height: self.height, lit }
+        let lit = |tau: &f32| if *tau > angle_rad / PI { 255 } else { 0 };
+        Mask { width: self.width, height: self.height, coverage: self.tau.iter().map(lit).collect() }
     }
 
     /// The map in lilToon's layout: red for light from the character's right, green for light from her left, blue
@@ -168,7 +168,7 @@ mod tests {
         let map = bake(&keys()).expect("nested keys");
         for step in 0..180 {
             let [now, next] = [step, step + 1].map(|d| map.mask((d as f32).to_radians()));
-            assert!(now.lit.iter().zip(&next.lit).all(|(a, b)| *a || !*b), "at {step} degrees");
+            assert!(now.lit().zip(next.lit()).all(|(a, b)| a || !b), "at {step} degrees");
         }
     }
 
@@ -183,7 +183,7 @@ mod tests {
         wrong[2].angle_rad = 0.1;
         assert!(message(&wrong).contains("growing"));
         let mut wrong = good.clone();
-        wrong[3].mask.lit[5] = true;
+        wrong[3].mask.coverage[5] = 255;
         assert!(message(&wrong).contains("1 texels, first at 5, 0"), "{}", message(&wrong));
         wrong[3].mask = Mask::from_fn(3, 3, |_, _| false);
         assert!(message(&wrong).contains("3 x 3"));

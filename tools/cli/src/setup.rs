@@ -76,7 +76,7 @@ fn painted(model: Option<&Path>) -> Result<Option<ThresholdMap>, Failure> {
     if model.is_some() {
         return Ok(None);
     }
-    let key = |(angle_rad, side, lit)| Key { angle_rad, mask: Mask { width: side, height: side, lit } };
+    let key = |(angle_rad, side, coverage)| Key { angle_rad, mask: Mask { width: side, height: side, coverage } };
     let keys: Vec<Key> = sdf::keys().into_iter().map(key).collect();
     Ok(Some(bake(&keys)?))
 }

@@ -128,7 +128,7 @@ impl Studio {
 
 #[test]
 fn the_anime_look_is_as_before() {
-    let key = |(angle_rad, side, lit)| Key { angle_rad, mask: Mask { width: side, height: side, lit } };
+    let key = |(angle_rad, side, coverage)| Key { angle_rad, mask: Mask { width: side, height: side, coverage } };
     let painted = bake(&sdf::keys().into_iter().map(key).collect::<Vec<_>>()).expect("her keys are nested");
     let mut studio = Studio::open_with(|scene| Look::Anime { face: Some(painted) }.apply(scene));
     for degrees in [-120, -75, -40, 0, 40, 75, 120] {

@@ -54,12 +54,12 @@ pub fn angles() -> Vec<f32> {
     document().keys
 }
 
-/// The keys of the face's shadow: angle of the light, radians, side of the mask, and which of its texels are lit.
+/// The keys of the face's shadow: angle of the light, radians, side of the mask, and how much of its texels is lit, 0..=255.
 #[must_use]
-pub fn keys() -> Vec<(f32, u32, Vec<bool>)> {
+pub fn keys() -> Vec<(f32, u32, Vec<u8>)> {
     let key = |angle: f32| {
         let picture = mask(angle);
-        (angle.to_radians(), picture.width, picture.rgba.iter().map(|p| p[0] > 127).collect())
+        (angle.to_radians(), picture.width, picture.rgba.iter().map(|p| p[0]).collect())
     };
     angles().into_iter().map(key).collect()
 }
