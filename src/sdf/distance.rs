@@ -28,7 +28,7 @@ pub fn distance_squared(mask: &Mask, to: bool) -> Vec<u32> {
     for_each_row(&levels, width, 2, &mut squared, |y, row, sweep, scratch, out| {
         scratch.find_runs(row);
         let set = if to { &sweep.above[0] } else { &sweep.below[1] };
-        scratch.to_set(from, y, set);
+        scratch.measure(from, y, set);
         for (start, end) in scratch.runs_of(from) {
             out[start..end].copy_from_slice(&scratch.squared[start..end]);
         }
@@ -111,7 +111,7 @@ impl Scratch {
     }
 
     /// Finds the distances of all texels of a level to a set that they are not in.
-    pub(super) fn to_set(&mut self, level: u8, y: i16, set: &Nearest) {
+    pub(super) fn measure(&mut self, level: u8, y: i16, set: &Nearest) {
         let width = self.vertical.len();
         // Columns that runs reach; runs whose columns overlap share one envelope, so that no column is visited twice.
         let (mut first, mut group): (usize, Option<(usize, usize)>) = (0, None);
@@ -272,7 +272,7 @@ mod tests {
                     for_each_row(&levels, w, 5, &mut found, |y, row, sweep, scratch, out| {
                         scratch.find_runs(row);
                         let set = if above { &sweep.above } else { &sweep.below };
-                        scratch.to_set(level, y, &set[usize::from(level)]);
+                        scratch.measure(level, y, &set[usize::from(level)]);
                         for (start, end) in scratch.runs_of(level) {
                             out[start..end].copy_from_slice(&scratch.squared[start..end]);
                         }
