@@ -56,6 +56,19 @@ pub fn decode(name: &str, bytes: &[u8], limits: &Limits) -> Result<Image> {
     decoded.map(|image| Image { name: name.to_owned(), ..image }).map_err(|fault| fault.into_error(name))
 }
 
+/// A picture as a PNG that can be decoded row by row: checked, without the chunks that pixels do not need. What cannot be
+/// (WebP, JPEG, interlaced PNG) is decoded and encoded again.
+pub(crate) fn rows_of_png(path: &Path, bytes: &[u8], limits: &Limits) -> Result<Vec<u8>> {
+    let name = path.display().to_string();
+    let probe = probe("image", bytes, limits).map_err(|fault| fault.into_error(&name))?;
+    // The last byte of the header, which stands first.
+    if probe.format == Format::Png && probe.bytes.get(28) == Some(&0) {
+        return Ok(probe.bytes.into_owned());
+    }
+    let image = probe.decode("image", limits).map_err(|fault| fault.into_error(&name))?;
+    crate::picture::encode_png(&image)
+}
+
 /// Reads a regular file within the limits.
 pub(crate) fn read(path: &Path, limits: &Limits) -> Result<Vec<u8>> {
     read_regular(path, limits).map_err(|fault| read_error(&path.display().to_string(), fault, limits))

@@ -4,6 +4,8 @@
 //! Masks of a threshold map are nested, so that one number a texel says all: its level, the count of keys at which it is
 //! lit. What stands between two keys needs the distances to the nearest lower and to the nearest higher level only.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 
 use super::Mask;
@@ -26,11 +28,14 @@ pub fn distance_squared(mask: &Mask, to: bool) -> Vec<u32> {
     let mut squared = vec![0; levels.len()];
     let from = u8::from(!to);
     for_each_row(&levels, width, 2, &mut squared, |y, row, sweep, scratch, out| {
-        scratch.find_runs(row);
         let set = if to { &sweep.above[0] } else { &sweep.below[1] };
-        scratch.measure(from, y, set);
-        for (start, end) in scratch.runs_of(from) {
-            out[start..end].copy_from_slice(&scratch.squared[start..end]);
+        for group in scratch.find_runs(row) {
+            if scratch.runs(&group)[0].level == from {
+                scratch.measure(&group, y, set);
+                for run in scratch.runs(&group) {
+                    out[run.start..run.end].copy_from_slice(&scratch.squared[run.start..run.end]);
+                }
+            }
         }
     });
     squared
@@ -68,19 +73,31 @@ pub(super) fn for_each_row<T: Send>(
 pub(super) struct Scratch {
     /// Squared distances that were found last, texels²; [`NEVER`] for none.
     pub(super) squared: Vec<u32>,
+    /// Room for those that were found before.
+    pub(super) before: Vec<u32>,
     vertical: Vec<i16>,
-    /// Start, end and level of each run of the row.
-    runs: Vec<(usize, usize, u8)>,
+    /// Runs of the row: by level, then from the left.
+    runs: Vec<Run>,
     /// Columns whose parabola is lowest somewhere: column, height plus square of the column, and where it begins to be.
     sites: Vec<(i32, i32, f64)>,
     /// 1 / (2 d): a multiplication is faster than a division, and a rounding error matters where two sites tie only.
     halves: Vec<f64>,
 }
 
+/// Texels of a row that have one level.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Run {
+    pub(super) level: u8,
+    pub(super) start: usize,
+    /// The column after the last one.
+    pub(super) end: usize,
+}
+
 impl Scratch {
     fn new(width: usize) -> Self {
         Self {
             squared: vec![NEVER; width],
+            before: vec![NEVER; width],
             vertical: vec![0; width],
             runs: Vec::new(),
             sites: Vec::with_capacity(width),
@@ -88,8 +105,8 @@ impl Scratch {
         }
     }
 
-    /// Splits a row into runs of equal levels.
-    pub(super) fn find_runs(&mut self, row: &[u8]) {
+    /// Splits a row into runs and gives, for each level in it, where its runs stand.
+    pub(super) fn find_runs(&mut self, row: &[u8]) -> Vec<Range<usize>> {
         self.runs.clear();
         let mut start = 0;
         while let Some(&level) = row.get(start) {
@@ -100,84 +117,72 @@ impl Scratch {
             while row.get(end) == Some(&level) {
                 end += 1;
             }
-            self.runs.push((start, end, level));
+            self.runs.push(Run { level, start, end });
             start = end;
         }
+        self.runs.sort_by_key(|r| r.level);
+        let mut end = 0;
+        let groups = self.runs.chunk_by(|a, b| a.level == b.level);
+        groups
+            .map(|group| {
+                end += group.len();
+                end - group.len()..end
+            })
+            .collect()
     }
 
-    /// Start and end of the runs of a level.
-    pub(super) fn runs_of(&self, level: u8) -> impl Iterator<Item = (usize, usize)> {
-        self.runs.iter().filter(move |r| r.2 == level).map(|r| (r.0, r.1))
+    /// Runs of one level.
+    pub(super) fn runs(&self, group: &Range<usize>) -> &[Run] {
+        &self.runs[group.clone()]
     }
 
-    /// Finds the distances of all texels of a level to a set that they are not in.
-    pub(super) fn measure(&mut self, level: u8, y: i16, set: &Nearest) {
-        let width = self.vertical.len();
+    /// Finds the distances of the texels of a group of runs to a set that they are not in.
+    pub(super) fn measure(&mut self, group: &Range<usize>, y: i16, set: &Nearest) {
         // Columns that runs reach; runs whose columns overlap share one envelope, so that no column is visited twice.
-        let (mut first, mut group): (usize, Option<(usize, usize)>) = (0, None);
-        for index in 0..self.runs.len() {
-            let (start, end, own) = self.runs[index];
-            if own != level {
-                continue;
+        let (mut first, mut columns) = (group.start, 0..0);
+        for index in group.clone() {
+            let reach = self.reach(self.runs[index], y, set);
+            if reach.start < columns.end {
+                columns = columns.start.min(reach.start)..columns.end.max(reach.end);
+            } else {
+                self.envelope(columns, first..index, y, set);
+                (first, columns) = (index, reach);
             }
-            let reach = self.reach(start, end, y, set);
-            group = match group {
-                Some((left, right)) if reach.0 <= right => Some((left.min(reach.0), right.max(reach.1))),
-                Some(done) => {
-                    self.envelope(done, first..index, level, y, set);
-                    first = index;
-                    Some(reach)
-                }
-                None => {
-                    first = index;
-                    Some(reach)
-                }
-            };
         }
-        if let Some(last) = group {
-            let runs = first..self.runs.len();
-            self.envelope((last.0, last.1.min(width - 1)), runs, level, y, set);
-        }
+        self.envelope(columns, first..group.end, y, set);
     }
 
     /// First and last column in which the nearest texel of the set can be, for any texel of a run: not farther than the
     /// nearest in the own column, nor than the run's ends where the set begins there.
-    fn reach(&mut self, start: usize, end: usize, y: i16, set: &Nearest) -> (usize, usize) {
+    fn reach(&self, run: Run, y: i16, set: &Nearest) -> Range<usize> {
+        let width = self.vertical.len();
         let in_set = |x: usize| set.distance(x, y) == 0;
-        let left = if start > 0 && in_set(start - 1) {
-            start as i16 - 1
+        let left = if run.start > 0 && in_set(run.start - 1) {
+            run.start as i16 - 1
         } else {
             -FAR
         };
-        let right = if self.vertical.len() > end && in_set(end) {
-            end as i16
+        let right = if run.end < width && in_set(run.end) {
+            run.end as i16
         } else {
             i16::MAX
         };
         let (mut low, mut high) = (i16::MAX, 0i16);
-        for (i, (last, next)) in set.last[start..end].iter().zip(&set.next[start..end]).enumerate() {
-            let x = (start + i) as i16;
+        let texels = run.start..run.end;
+        for (i, (last, next)) in set.last[texels.clone()].iter().zip(&set.next[texels]).enumerate() {
+            let x = (run.start + i) as i16;
             let vertical = (y - last).min(next - y).clamp(0, FAR - 1);
-            let bound = vertical.min(x - left).min(right - x);
-            (low, high) = (low.min(x - bound), high.max(x + bound));
+            let bound = vertical.min(x.saturating_sub(left)).min(right - x);
+            (low, high) = (low.min(x - bound), high.max(x.saturating_add(bound)));
         }
-        (low.max(0) as usize, (high as usize).min(self.vertical.len() - 1))
+        low.max(0) as usize..(high as usize + 1).min(width)
     }
 
-    /// Lower envelope over the columns `left..=right`, read off at the runs of the level.
-    fn envelope(
-        &mut self,
-        (left, right): (usize, usize),
-        runs: std::ops::Range<usize>,
-        level: u8,
-        y: i16,
-        set: &Nearest,
-    ) {
-        let Self { squared, vertical, runs: all, sites, halves } = self;
-        let columns = left..right + 1;
-        for ((v, last), next) in
-            vertical[columns.clone()].iter_mut().zip(&set.last[columns.clone()]).zip(&set.next[columns.clone()])
-        {
+    /// Lower envelope over some columns, read off at runs that stand in them.
+    fn envelope(&mut self, columns: Range<usize>, runs: Range<usize>, y: i16, set: &Nearest) {
+        let Self { squared, vertical, runs: all, sites, halves, .. } = self;
+        let both = set.last[columns.clone()].iter().zip(&set.next[columns.clone()]);
+        for (v, (last, next)) in vertical[columns.clone()].iter_mut().zip(both) {
             *v = (y - last).min(next - y).clamp(0, FAR);
         }
         sites.clear();
@@ -196,17 +201,17 @@ impl Scratch {
             sites.push((x, height, start));
         }
         let mut at = 0;
-        for &(start, end, _) in all[runs].iter().filter(|r| r.2 == level) {
-            let mut x = start;
-            while x < end {
+        for run in &all[runs] {
+            let mut x = run.start;
+            while x < run.end {
                 while sites.get(at + 1).is_some_and(|s| s.2 < x as f64) {
                     at += 1;
                 }
                 let Some(&(site, height, _)) = sites.get(at) else {
-                    squared[x..end].fill(NEVER);
+                    squared[x..run.end].fill(NEVER);
                     break;
                 };
-                let until = sites.get(at + 1).map_or(end, |next| (next.2.floor() as usize + 1).clamp(x + 1, end));
+                let until = sites.get(at + 1).map_or(run.end, |next| (next.2 as usize + 1).clamp(x + 1, run.end));
                 let vertical = height - site * site;
                 for (p, out) in (x as i32..).zip(&mut squared[x..until]) {
                     *out = ((p - site) * (p - site) + vertical) as u32;
@@ -270,11 +275,14 @@ mod tests {
                 for above in [false, true] {
                     let mut found = vec![0; w * h];
                     for_each_row(&levels, w, 5, &mut found, |y, row, sweep, scratch, out| {
-                        scratch.find_runs(row);
                         let set = if above { &sweep.above } else { &sweep.below };
-                        scratch.measure(level, y, &set[usize::from(level)]);
-                        for (start, end) in scratch.runs_of(level) {
-                            out[start..end].copy_from_slice(&scratch.squared[start..end]);
+                        for group in scratch.find_runs(row) {
+                            if scratch.runs(&group)[0].level == level {
+                                scratch.measure(&group, y, &set[usize::from(level)]);
+                                for run in scratch.runs(&group) {
+                                    out[run.start..run.end].copy_from_slice(&scratch.squared[run.start..run.end]);
+                                }
+                            }
                         }
                     });
                     let in_set = |l: u8| if above { l > level } else { l < level };

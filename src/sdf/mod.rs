@@ -4,16 +4,30 @@
 //! at which it turns dark, by the exact distances to the borders of the two keys round it, so that the border of light
 //! and shade glides from one drawing to the next.
 
+mod check;
 mod columns;
 mod distance;
 mod face_map;
 mod guide;
+mod layout;
 mod mask;
+mod profile;
+mod project;
+mod shapes;
+mod source;
+mod stack;
 mod threshold;
 
+pub use check::{Remark, check};
 pub use columns::MAX_SIDE;
 pub use distance::{NEVER, distance_squared};
 pub use face_map::{FaceLayout, FaceMap, MAX_PITCHES, Texels};
 pub use guide::face_map;
+pub use layout::{ChannelSource, Layout, Sides};
 pub use mask::{LIT, Mask};
-pub use threshold::{Key, ThresholdMap, bake};
+pub use profile::Profile;
+pub use project::{BakedSides, CapFront, DrawnKey, Project, ProjectKey, Size};
+pub use shapes::{Drawing, Ellipse, Shape, ShapeKey, ShapeKind, Tween};
+pub use source::{MaskChannel, MaskFile};
+pub use stack::{Contradiction, MAX_KEYS};
+pub use threshold::{BakeOptions, Baked, Depth, Key, ThresholdMap, bake};

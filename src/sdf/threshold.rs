@@ -1,8 +1,12 @@
 //! Keys to a threshold map.
 
-use std::f32::consts::PI;
+use std::f64::consts::PI;
+use std::sync::atomic::{AtomicU32, Ordering};
 
-use super::{FaceLayout, LIT, MAX_SIDE, Mask, NEVER, Texels, distance_squared};
+use super::distance::for_each_row;
+use super::source::Source;
+use super::stack::{Contradiction, Stack};
+use super::{FaceLayout, Mask, Profile, Texels};
 use crate::{Error, Result};
 
 /// What is lit at one angle of the light.
@@ -14,6 +18,41 @@ pub struct Key {
     pub mask: Mask,
 }
 
+/// How keys become a map.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct BakeOptions {
+    /// What the consumer compares the map with. Default: linear.
+    pub profile: Profile,
+    /// Bits of a value. Default: 16.
+    pub depth: Depth,
+    /// With 8 bits, spreads the rounding over an ordered pattern of 8 x 8 texels: errors of up to a code instead of half
+    /// a code, but no steps. Default: false.
+    pub dither: bool,
+    /// Where keys contradict each other, takes what the fewest of them gainsay instead of failing. Default: false.
+    pub repair: bool,
+}
+
+/// Bits of a value.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Depth {
+    /// 0..=255.
+    Eight,
+    /// 0..=65535.
+    #[default]
+    Sixteen,
+}
+
+impl Depth {
+    /// The greatest code.
+    #[must_use]
+    pub const fn max(self) -> u16 {
+        match self {
+            Self::Eight => 255,
+            Self::Sixteen => u16::MAX,
+        }
+    }
+}
+
 /// For every texel the angle of the light at which it turns dark.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ThresholdMap {
@@ -21,126 +60,346 @@ pub struct ThresholdMap {
     pub width: u32,
     /// Height, texels.
     pub height: u32,
-    /// Angle over π, rows from the top: lit while it is greater than that of the light. 0 is never lit, 1 always.
-    pub tau: Vec<f32>,
+    /// Thresholds in codes of 0 to [`Depth::max`], rows from the top: lit while greater than that of the light. The
+    /// lowest is never lit, the greatest always; in between, a texel is never nearer than a quarter of a code to the
+    /// threshold of a key.
+    pub codes: Vec<u16>,
+    /// Bits of a code.
+    pub depth: Depth,
+    /// Measure of the thresholds.
+    pub profile: Profile,
+}
+
+/// A map, and what is wrong with its keys.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Baked {
+    /// The map.
+    pub map: ThresholdMap,
+    /// Contradictions between keys, which have been repaired.
+    pub contradictions: Vec<Contradiction>,
+    /// Texels that they concern, as indices in reading order.
+    pub wrong: Vec<u32>,
 }
 
 /// Finds the threshold of every texel.
 ///
-/// Between two keys the angle is divided by the distances to their borders (half a texel from the centres on either
-/// side), so that each key comes back exactly when the map is cut at its angle. Where the first of two keys has no
-/// border, what is farthest from the second one goes first; where the second is empty, what is deepest goes last.
+/// Between two keys it is divided by the distances to their borders (half a texel from the centres on either side), so
+/// that each key comes back exactly when the map is cut at its angle. Where the first of two keys has no border, what is
+/// farthest from the second one goes first; where the second is empty, what is deepest goes last.
 ///
 /// # Errors
 /// [`Error::Argument`] for fewer than two keys, angles that are out of range or do not grow, masks of other sizes than
-/// the first, and texels that light up again: one number can hold one border only. The message names the place.
-pub fn bake(keys: &[Key]) -> Result<ThresholdMap> {
-    check(keys)?;
-    let [first, .., last] = keys else { return Err(fault("are fewer than two")) };
-    let mut tau = vec![0f32; first.mask.coverage.len()];
-    for pair in keys.windows(2) {
-        let [a, b] = pair else { continue };
-        blend(a, b, &mut tau);
-    }
-    for (tau, lit) in tau.iter_mut().zip(last.mask.lit()) {
-        if lit {
-            *tau = 1.0;
+/// the first or over [`MAX_SIDE`](super::MAX_SIDE), keys that are too close for the bits of a code, and, without
+/// [`repair`](BakeOptions::repair), texels that light up again: one number can hold one border only. The message names
+/// the place.
+pub fn bake(keys: &[Key], options: &BakeOptions) -> Result<Baked> {
+    for Mask { width, height, coverage } in keys.iter().map(|k| &k.mask) {
+        if coverage.len() as u64 != u64::from(*width) * u64::from(*height) {
+            return Err(fault(format!("have a mask of {width} x {height} with {} texels", coverage.len())));
         }
     }
-    Ok(ThresholdMap { width: first.mask.width, height: first.mask.height, tau })
+    let angles: Vec<f32> = keys.iter().map(|k| k.angle_rad).collect();
+    bake_sources(&angles, &mut keys.iter().map(|k| Source::mask(&k.mask)).collect::<Vec<_>>(), options)
+}
+
+/// The same for keys that are read row by row.
+pub(super) fn bake_sources(angles_rad: &[f32], sources: &mut [Source], options: &BakeOptions) -> Result<Baked> {
+    check(angles_rad, sources)?;
+    options.profile.check()?;
+    let bands = bands(angles_rad, options)?;
+    let mut stack = Stack::read(sources[0].size, angles_rad, sources)?;
+    if let (Some(c), false) = (stack.contradictions.first(), options.repair) {
+        let texels: usize = stack.contradictions.iter().map(|c| c.texels).sum();
+        let [from, to] = [c.dark_rad, c.lit_rad].map(degrees);
+        return Err(fault(format!(
+            "light up again: {texels} texels, between {from} and {to} degrees {} of them, first at {}, {}; expected lit \
+             parts that only shrink",
+            c.texels, c.first[0], c.first[1]
+        )));
+    }
+    let codes = codes(&stack, &bands, options);
+    Ok(Baked {
+        map: ThresholdMap {
+            width: stack.width as u32,
+            height: stack.height as u32,
+            codes,
+            depth: options.depth,
+            profile: options.profile.clone(),
+        },
+        contradictions: std::mem::take(&mut stack.contradictions),
+        wrong: std::mem::take(&mut stack.wrong),
+    })
 }
 
 fn fault(message: impl Into<String>) -> Error {
     Error::Argument { what: "keys of a threshold map".into(), message: message.into() }
 }
 
-fn check(keys: &[Key]) -> Result<()> {
-    for key in keys {
-        if !(0.0..=PI).contains(&key.angle_rad) {
-            return Err(fault(format!("have the angle {} rad; expected 0 to pi", key.angle_rad)));
-        }
-        let Mask { width, height, coverage } = &key.mask;
-        if coverage.len() as u64 != u64::from(*width) * u64::from(*height) || coverage.is_empty() {
-            return Err(fault(format!("have a mask of {width} x {height} with {} texels", coverage.len())));
-        }
-        if *width.max(height) > MAX_SIDE {
-            return Err(fault(format!("have a mask of {width} x {height}; expected at most {MAX_SIDE} a side")));
+/// For messages.
+fn degrees(angle_rad: f32) -> f32 {
+    (angle_rad.to_degrees() * 1000.0).round() / 1000.0
+}
+
+fn check(angles_rad: &[f32], sources: &[Source]) -> Result<()> {
+    if sources.len() < 2 {
+        return Err(fault("are fewer than two"));
+    }
+    for angle in angles_rad {
+        // The angle 180 degrees may be rounded up on its way to radians.
+        if !(0.0..=PI + 1e-6).contains(&f64::from(*angle)) {
+            return Err(fault(format!("have the angle {} degrees; expected 0 to 180", degrees(*angle))));
         }
     }
-    for pair in keys.windows(2) {
-        let [a, b] = pair else { continue };
-        let degrees = [a.angle_rad, b.angle_rad].map(f32::to_degrees);
-        if a.angle_rad >= b.angle_rad {
-            return Err(fault(format!(
-                "stand at {} and then at {} degrees; expected growing angles",
-                degrees[0], degrees[1]
-            )));
+    for pair in angles_rad.windows(2) {
+        let [a, b] = [pair[0], pair[1]].map(degrees);
+        if a >= b {
+            return Err(fault(format!("stand at {a} and then at {b} degrees; expected growing angles")));
         }
-        if (a.mask.width, a.mask.height) != (b.mask.width, b.mask.height) {
-            return Err(fault(format!(
-                "have masks of {} x {} and {} x {}; expected one size",
-                a.mask.width, a.mask.height, b.mask.width, b.mask.height
-            )));
-        }
-        let again = || a.mask.lit().zip(b.mask.lit()).enumerate().filter(|(_, (a, b))| !*a && *b);
-        if let Some((i, _)) = again().next() {
-            let (x, y) = (i % a.mask.width as usize, i / a.mask.width as usize);
-            return Err(fault(format!(
-                "light up again between {} and {} degrees: {} texels, first at {x}, {y}; expected lit parts that only shrink",
-                degrees[0],
-                degrees[1],
-                again().count()
-            )));
-        }
+    }
+    let first = sources[0].size;
+    if let Some(other) = sources.iter().map(|s| s.size).find(|s| *s != first) {
+        let [[w, h], [v, g]] = [first, other];
+        return Err(fault(format!("have masks of {w} x {h} and {v} x {g}; expected one size")));
     }
     Ok(())
 }
 
-/// Thresholds of what is lit at `a` and dark at `b`.
-fn blend(a: &Key, b: &Key, tau: &mut [f32]) {
-    let band = |i: usize| a.mask.coverage[i] >= LIT && b.mask.coverage[i] < LIT;
-    if !(0..tau.len()).any(band) {
-        return;
-    }
-    let to_dark = distance_squared(&a.mask, false);
-    let to_lit = distance_squared(&b.mask, true);
-    let beyond = |squared: u32| (squared != NEVER).then(|| f64::from(squared).sqrt() - 0.5);
-    let deepest = |distances: &[u32]| {
-        (0..distances.len()).filter(|i| band(*i)).filter_map(|i| beyond(distances[i])).fold(0.0, f64::max) + 0.5
+/// What lies between two keys.
+#[derive(Clone, Copy, Debug)]
+struct Band {
+    /// Thresholds of the two keys, in codes.
+    from: f64,
+    to: f64,
+    /// Least and greatest code of a texel that is lit at the first and dark at the second.
+    low: u16,
+    high: u16,
+}
+
+fn bands(angles_rad: &[f32], options: &BakeOptions) -> Result<Vec<Band>> {
+    let max = options.depth.max();
+    let threshold = |angle: f32| options.profile.threshold(f64::from(angle)) * f64::from(max);
+    let band = |pair: &[f32]| {
+        let [from, to] = [threshold(pair[0]), threshold(pair[1])];
+        // The outermost codes are never and always lit, and no texel ties with a key.
+        let (low, high) = ((from + 0.25).ceil().max(1.0), (to - 0.25).floor().min(f64::from(max - 1)));
+        // Beyond the angles that the profile tells apart; those at its ends are rounded on their way to radians.
+        let rounded = 0.05;
+        if to <= rounded || from >= f64::from(max) - rounded {
+            let code = if to <= rounded { 1 } else { max - 1 };
+            return Ok(Band { from, to, low: code, high: code });
+        }
+        if low > high {
+            let [a, b] = [pair[0], pair[1]].map(degrees);
+            return Err(fault(format!(
+                "at {a} and {b} degrees are too close for {} bits: no code lies between them; expected a wider step{}",
+                if max == 255 { 8 } else { 16 },
+                if max == 255 { " or 16 bits" } else { "" }
+            )));
+        }
+        Ok(Band { from, to, low: low as u16, high: high as u16 })
     };
-    let (max_in, max_out) = (deepest(&to_dark), deepest(&to_lit));
-    let [from, to] = [a.angle_rad, b.angle_rad].map(f64::from);
-    for i in (0..tau.len()).filter(|i| band(*i)) {
-        let share = match (beyond(to_dark[i]), beyond(to_lit[i])) {
-            (Some(inside), Some(outside)) => inside / (inside + outside),
-            (None, Some(outside)) => 1.0 - outside / max_out,
-            (Some(inside), None) => inside / max_in,
-            (None, None) => 0.5,
-        };
-        tau[i] = ((from + (to - from) * share) / std::f64::consts::PI) as f32;
+    angles_rad.windows(2).map(band).collect()
+}
+
+/// How far the borders' distances are from those of the texels' centres.
+const HALF: f64 = 0.5;
+
+fn codes(stack: &Stack, bands: &[Band], options: &BakeOptions) -> Vec<u16> {
+    let keys = bands.len() + 1;
+    let mut codes = vec![0u16; stack.counts.len()];
+    let seen = seen(&stack.counts);
+    let (lowest, highest) = (seen.iter().position(|s| *s).unwrap_or(0), seen.iter().rposition(|s| *s).unwrap_or(0));
+    let deepest = Deepest::of(stack, keys, lowest, highest);
+    for_each_row(&stack.counts, stack.width, keys + 1, &mut codes, |y, row, sweep, scratch, out| {
+        for group in scratch.find_runs(row) {
+            let level = usize::from(scratch.runs(&group)[0].level);
+            if level == 0 || level == keys {
+                let code = if level == 0 { 0 } else { options.depth.max() };
+                scratch.runs(&group).iter().for_each(|run| out[run.start..run.end].fill(code));
+                continue;
+            }
+            if level > lowest {
+                scratch.measure(&group, y, &sweep.below[level]);
+            }
+            std::mem::swap(&mut scratch.squared, &mut scratch.before);
+            if level < highest {
+                scratch.measure(&group, y, &sweep.above[level]);
+            }
+            let band = &bands[level - 1];
+            for run in scratch.runs(&group) {
+                let texels = run.start..run.end;
+                let (inside, outside) = (&scratch.before[texels.clone()], &scratch.squared[texels.clone()]);
+                let shift = |i: usize| {
+                    if options.dither && options.depth == Depth::Eight {
+                        bayer(run.start + i, y)
+                    } else {
+                        0.0
+                    }
+                };
+                if level > lowest && level < highest {
+                    band.between(inside, outside, &mut out[texels], options, shift);
+                } else {
+                    let share = |i: usize| match (level > lowest, level < highest) {
+                        (true, _) => distance(inside[i]) / deepest.inside,
+                        (_, true) => 1.0 - distance(outside[i]) / deepest.outside,
+                        _ => 0.5,
+                    };
+                    out[texels].iter_mut().enumerate().for_each(|(i, code)| *code = band.code(share(i), shift(i)));
+                }
+            }
+        }
+    });
+    codes
+}
+
+fn seen(counts: &[u8]) -> [bool; 256] {
+    let mut seen = [false; 256];
+    counts.iter().for_each(|c| seen[usize::from(*c)] = true);
+    seen
+}
+
+/// Distance from a texel to a border.
+fn distance(squared: u32) -> f64 {
+    f64::from(squared).sqrt() - HALF
+}
+
+/// Distances of what is farthest from the only border that its band has, and half a texel more.
+struct Deepest {
+    inside: f64,
+    outside: f64,
+}
+
+impl Deepest {
+    fn of(stack: &Stack, keys: usize, lowest: usize, highest: usize) -> Self {
+        let greatest = [AtomicU32::new(0), AtomicU32::new(0)];
+        // Only where all texels are lit at a key, or all dark.
+        if lowest > 0 || highest < keys {
+            let mut nothing = vec![(); stack.counts.len()];
+            for_each_row(&stack.counts, stack.width, keys + 1, &mut nothing, |y, row, sweep, scratch, _| {
+                for group in scratch.find_runs(row) {
+                    let level = usize::from(scratch.runs(&group)[0].level);
+                    let (side, set) = match level {
+                        _ if level == 0 || level == keys || lowest == highest => continue,
+                        _ if level == highest => (0, &sweep.below[level]),
+                        _ if level == lowest => (1, &sweep.above[level]),
+                        _ => continue,
+                    };
+                    scratch.measure(&group, y, set);
+                    let found = scratch.runs(&group).iter().flat_map(|r| &scratch.squared[r.start..r.end]).max();
+                    greatest[side].fetch_max(found.copied().unwrap_or(0), Ordering::Relaxed);
+                }
+            });
+        }
+        let [inside, outside] = greatest.map(|g| distance(g.into_inner()) + HALF);
+        Self { inside, outside }
     }
 }
 
+impl Band {
+    /// Code at a share of the way between the keys.
+    fn code(&self, share: f64, shift: f64) -> u16 {
+        let exact = self.from + (self.to - self.from) * share;
+        ((exact + 0.5 + shift).floor()).clamp(f64::from(self.low), f64::from(self.high)) as u16
+    }
+
+    /// Codes of texels that have both borders: in single precision, and anew in double where that could round wrongly.
+    fn between(
+        &self,
+        inside: &[u32],
+        outside: &[u32],
+        out: &mut [u16],
+        options: &BakeOptions,
+        shift: impl Fn(usize) -> f64,
+    ) {
+        const LANES: usize = 8;
+        /// Adding it rounds to whole numbers.
+        const ROUND: f32 = 8_388_608.0;
+        /// Three roundings of 24 bits on a value of 16.
+        const UNSURE: f32 = 0.5 - 0.02;
+        let exact = |i: usize| {
+            let (inside, outside) = (distance(inside[i]), distance(outside[i]));
+            self.code(inside / (inside + outside), shift(i))
+        };
+        if options.dither {
+            (0..out.len()).for_each(|i| out[i] = exact(i));
+            return;
+        }
+        let (from, span) = (self.from as f32, (self.to - self.from) as f32);
+        let (low, high) = (f32::from(self.low), f32::from(self.high));
+        let blocks = inside.chunks(LANES).zip(outside.chunks(LANES)).enumerate();
+        for (block, (inside, outside)) in blocks {
+            let at = block * LANES;
+            let mut unsure = inside.len() < LANES;
+            if let (Some(inside), Some(outside)) = (inside.first_chunk::<LANES>(), outside.first_chunk::<LANES>()) {
+                let mut off = [0f32; LANES];
+                for i in 0..LANES {
+                    // Squares of 31 bits, which convert faster with a sign.
+                    let a = (inside[i] as i32 as f32).sqrt() - 0.5;
+                    let b = (outside[i] as i32 as f32).sqrt() - 0.5;
+                    let value = (from + span * (a / (a + b))).max(low).min(high);
+                    let rounded = value + ROUND;
+                    off[i] = (value - (rounded - ROUND)).abs();
+                    out[at + i] = rounded.to_bits() as u16;
+                }
+                unsure = off.iter().any(|o| *o > UNSURE);
+            }
+            if unsure {
+                (at..at + inside.len()).for_each(|i| out[i] = exact(i));
+            }
+        }
+    }
+}
+
+/// Ordered dither of 8 x 8 texels (Bayer 1973), -0.5..0.5 codes.
+fn bayer(x: usize, y: i16) -> f64 {
+    let (x, y) = (x & 7, y as usize & 7);
+    let bits = (0..3).map(|bit| (((x ^ y) >> bit & 1) << (5 - 2 * bit)) | ((y >> bit & 1) << (4 - 2 * bit)));
+    (bits.sum::<usize>() as f64 + 0.5) / 64.0 - 0.5
+}
+
 impl ThresholdMap {
+    /// Threshold of a texel, 0..=1.
+    #[must_use]
+    pub fn value(&self, texel: usize) -> f64 {
+        f64::from(self.codes[texel]) / f64::from(self.depth.max())
+    }
+
     /// What is lit at an angle of the light, radians.
     #[must_use]
     pub fn mask(&self, angle_rad: f32) -> Mask {
-        let lit = |tau: &f32| if *tau > angle_rad / PI { 255 } else { 0 };
-        Mask { width: self.width, height: self.height, coverage: self.tau.iter().map(lit).collect() }
+        let max = self.depth.max();
+        let threshold = self.profile.threshold(f64::from(angle_rad)) * f64::from(max);
+        let lit = |code: &u16| *code == max || *code > 0 && f64::from(*code) > threshold;
+        let coverage = self.codes.iter().map(|code| if lit(code) { 255 } else { 0 }).collect();
+        Mask { width: self.width, height: self.height, coverage }
     }
 
     /// The map in lilToon's layout: red for light from the character's right, green for light from her left, blue
     /// (share of normal shading) 0, alpha (strength) full. This map is for light from her left, which is the right of the
-    /// texture; red is its mirror image.
+    /// texture; red is its mirror image. Values are those of the profile, in 16 bits.
     #[must_use]
     pub fn mirrored(&self) -> Texels {
-        let rgba = self.tau.iter().map(|tau| [(tau.clamp(0.0, 1.0) * 65535.0).round() as u16; 4]).collect();
-        Texels { width: self.width, height: self.height, rgba, is_8_bit: false }.laid_out(FaceLayout::Mirrored)
+        let wide = |code: &u16| if self.depth == Depth::Eight { code * 257 } else { *code };
+        let value = |code: &u16| {
+            if self.profile.is_falling() {
+                u16::MAX - wide(code)
+            } else {
+                wide(code)
+            }
+        };
+        let rgba = self.codes.iter().map(|code| [value(code); 4]).collect();
+        Texels { width: self.width, height: self.height, rgba, is_8_bit: self.depth == Depth::Eight }
+            .laid_out(FaceLayout::Mirrored)
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use std::f32::consts::PI;
+
+    use proptest::prelude::*;
+
+    use super::super::{NEVER, distance_squared};
     use super::*;
 
     /// A border that moves from left to right, with a bump.
@@ -154,27 +413,122 @@ mod tests {
             .collect()
     }
 
-    #[test]
-    fn cut_at_its_angle_every_key_comes_back() {
-        let keys = keys();
-        let map = bake(&keys).expect("nested keys");
-        for key in &keys {
-            assert_eq!(map.mask(key.angle_rad), key.mask, "{} rad", key.angle_rad);
+    fn map(keys: &[Key], options: &BakeOptions) -> ThresholdMap {
+        bake(keys, options).expect("nested keys").map
+    }
+
+    /// Every mixture of bits and dither.
+    fn depths() -> [BakeOptions; 3] {
+        let eight = BakeOptions { depth: Depth::Eight, ..BakeOptions::default() };
+        [BakeOptions::default(), eight.clone(), BakeOptions { dither: true, ..eight }]
+    }
+
+    /// The blend in double precision from distances of single masks, in codes; the least and greatest code allowed.
+    fn blend(keys: &[Key], options: &BakeOptions) -> Vec<f64> {
+        let max = f64::from(options.depth.max());
+        let mut out = vec![0.0; keys[0].mask.coverage.len()];
+        let lit: Vec<Vec<bool>> = keys.iter().map(|k| k.mask.lit().collect()).collect();
+        for k in 1..keys.len() {
+            let (to_dark, to_lit) = (distance_squared(&keys[k - 1].mask, false), distance_squared(&keys[k].mask, true));
+            let t = |k: usize| options.profile.threshold(f64::from(keys[k].angle_rad)) * max;
+            let band: Vec<usize> = (0..out.len()).filter(|i| lit[k - 1][*i] && !lit[k][*i]).collect();
+            let deepest = |d: &[u32]| band.iter().map(|i| f64::from(d[*i]).sqrt()).fold(0.0, f64::max);
+            for &i in &band {
+                let share = match (to_dark[i], to_lit[i]) {
+                    (NEVER, NEVER) => 0.5,
+                    (NEVER, b) => 1.0 - distance(b) / deepest(&to_lit),
+                    (a, NEVER) => distance(a) / deepest(&to_dark),
+                    (a, b) => distance(a) / (distance(a) + distance(b)),
+                };
+                out[i] = t(k - 1) + (t(k) - t(k - 1)) * share;
+            }
         }
+        for (out, _) in out.iter_mut().zip(&lit[keys.len() - 1]).filter(|(_, lit)| **lit) {
+            *out = max;
+        }
+        out
+    }
+
+    fn check(keys: &[Key], options: &BakeOptions) {
+        let map = map(keys, options);
+        for key in keys {
+            assert!(map.mask(key.angle_rad) == key.mask, "{} rad, {options:?}", key.angle_rad);
+        }
+        for (i, exact) in blend(keys, options).into_iter().enumerate() {
+            let code = f64::from(map.codes[i]);
+            // Where the nearest code ties with a key, the next one stands.
+            let key = |k: &Key| options.profile.threshold(f64::from(k.angle_rad)) * f64::from(options.depth.max());
+            let ends = keys.iter().any(|k| (exact.round() - key(k)).abs() < 0.25 || (exact - key(k)).abs() < 0.5);
+            let bound = if options.dither || ends { 1.0 } else { 0.5 };
+            assert!((code - exact).abs() <= bound + 1e-9, "texel {i}: {code} for {exact}, {options:?}");
+        }
+    }
+
+    #[test]
+    fn keys_come_back_and_codes_are_those_of_the_exact_blend() {
+        for options in depths() {
+            check(&keys(), &options);
+            check(&keys(), &BakeOptions { profile: Profile::Genshin, ..options.clone() });
+            let points = vec![[0.0, 0.0], [40.0, 0.4], [180.0, 1.0]];
+            check(&keys(), &BakeOptions { profile: Profile::Points(points), ..options });
+        }
+    }
+
+    #[test]
+    fn ends_without_a_border_grow() {
+        let full = Key { angle_rad: 0.0, mask: Mask::from_fn(40, 24, |_, _| true) };
+        let mut ends = keys()[1..].to_vec();
+        ends.insert(0, full.clone());
+        for options in depths() {
+            check(&ends, &options);
+            check(&[full.clone(), keys()[6].clone()], &options);
+        }
+        // Grows from the farthest corner on: texels farther from the second key's light turn dark no later.
+        let map = map(&ends, &BakeOptions::default());
+        let row: Vec<u16> = (0..4).map(|x| map.codes[x]).collect();
+        assert!(row.is_sorted() && row[0] < row[3], "{row:?}");
     }
 
     #[test]
     fn the_lit_part_only_shrinks() {
-        let map = bake(&keys()).expect("nested keys");
-        for step in 0..180 {
-            let [now, next] = [step, step + 1].map(|d| map.mask((d as f32).to_radians()));
-            assert!(now.lit().zip(next.lit()).all(|(a, b)| a || !b), "at {step} degrees");
+        for options in depths() {
+            let map = map(&keys(), &options);
+            for step in 0..180 {
+                let [now, next] = [step, step + 1].map(|d| map.mask((d as f32).to_radians()));
+                assert!(now.lit().zip(next.lit()).all(|(a, b)| a || !b), "at {step} degrees");
+            }
         }
+    }
+
+    /// lilToon tells angles of 60 to 120 degrees apart: what the keys draw there comes back, the rest is before or after.
+    #[test]
+    fn keys_beyond_a_profile_are_held_at_its_ends() {
+        let options = BakeOptions { profile: Profile::Liltoon, ..BakeOptions::default() };
+        let (keys, map) = (keys(), map(&keys(), &options));
+        for key in &keys[3..4] {
+            assert!(map.mask(key.angle_rad) == key.mask);
+        }
+        let value = |x: usize| map.codes[12 * 40 + x];
+        assert_eq!((value(6), value(39)), (1, 65534));
+    }
+
+    #[test]
+    fn dither_keeps_the_mean() {
+        let ramp = |k: u32| Mask::from_fn(512, 64, |x, _| k == 0 || k == 1 && x > 510);
+        let keys = [(0.0, 0), (PI / 60.0, 1)].map(|(angle_rad, k)| Key { angle_rad, mask: ramp(k) });
+        let [_, plain, dithered] = depths().map(|options| map(&keys, &options).codes);
+        let exact = blend(&keys, &depths()[1]);
+        let off = |codes: &[u16]| {
+            let block = |x: usize| (0..64).map(move |i| (i / 8) * 512 + x + i % 8);
+            let mean = |x: usize| block(x).map(|i| f64::from(codes[i]) - exact[i]).sum::<f64>().abs() / 64.0;
+            (152..360).step_by(8).map(mean).fold(0.0, f64::max)
+        };
+        assert!(off(&dithered) < 0.05 && off(&plain) > 0.3, "{} and {}", off(&dithered), off(&plain));
     }
 
     #[test]
     fn faults_name_place_and_reason() {
-        let message = |keys: &[Key]| bake(keys).map(|_| ()).unwrap_err().to_string();
+        let message = |keys: &[Key]| bake(keys, &BakeOptions::default()).map(|_| ()).unwrap_err().to_string();
         let good = keys();
         assert!(message(&good[..1]).contains("fewer than two"));
         let mut wrong = good.clone();
@@ -184,16 +538,40 @@ mod tests {
         assert!(message(&wrong).contains("growing"));
         let mut wrong = good.clone();
         wrong[3].mask.coverage[5] = 255;
-        assert!(message(&wrong).contains("1 texels, first at 5, 0"), "{}", message(&wrong));
+        assert!(
+            message(&wrong).contains("1 texels, between 60 and 90 degrees 1 of them, first at 5, 0"),
+            "{}",
+            message(&wrong)
+        );
+        let repaired = bake(&wrong, &BakeOptions { repair: true, ..BakeOptions::default() }).expect("repaired");
+        assert_eq!((repaired.map, repaired.wrong), (map(&good, &BakeOptions::default()), vec![5]));
         wrong[3].mask = Mask::from_fn(3, 3, |_, _| false);
         assert!(message(&wrong).contains("3 x 3"));
+        let close = [0.0, 0.002, 0.004].map(|angle_rad| Key { angle_rad, mask: Mask::from_fn(4, 4, |_, _| false) });
+        let options = BakeOptions { depth: Depth::Eight, ..BakeOptions::default() };
+        let fault = bake(&close, &options).unwrap_err().to_string();
+        assert!(fault.contains("too close for 8 bits") && bake(&close, &BakeOptions::default()).is_ok(), "{fault}");
     }
 
     #[test]
     fn both_sides_are_mirror_images() {
-        let map = bake(&keys()).expect("nested keys");
+        let map = map(&keys(), &BakeOptions::default());
         for row in map.mirrored().rgba.chunks_exact(40) {
             assert!((0..40).all(|x| row[x][0] == row[39 - x][1]));
+        }
+    }
+
+    proptest! {
+        /// Nested keys of any shape, among them empty, full and equal ones.
+        #[test]
+        fn any_nested_keys_come_back(w in 1u32..24, h in 1u32..40, noise in prop::collection::vec(0usize..9, 960), count in 2usize..8, coarse in 1u32..6) {
+            let level = |x: u32, y: u32| noise[((y / coarse) * 24 + x / coarse) as usize];
+            let keys: Vec<Key> = (0..count)
+                .map(|k| Key { angle_rad: 0.05 + k as f32 * 0.4, mask: Mask::from_fn(w, h, |x, y| level(x, y) > k) })
+                .collect();
+            for options in depths() {
+                check(&keys, &options);
+            }
         }
     }
 }

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use hikage::motion::{Pose, Stance};
 use hikage::scene::Scene;
-use hikage::sdf::{Key, Mask, ThresholdMap, bake};
+use hikage::sdf::{BakeOptions, Key, Mask, ThresholdMap, bake};
 use hikage::{Gpu, Look, LookFile};
 use hikage_character::head::sdf;
 
@@ -78,7 +78,7 @@ fn painted(model: Option<&Path>) -> Result<Option<ThresholdMap>, Failure> {
     }
     let key = |(angle_rad, side, coverage)| Key { angle_rad, mask: Mask { width: side, height: side, coverage } };
     let keys: Vec<Key> = sdf::keys().into_iter().map(key).collect();
-    Ok(Some(bake(&keys)?))
+    Ok(Some(bake(&keys, &BakeOptions::default())?.map))
 }
 
 /// The model in a stance with these expressions.

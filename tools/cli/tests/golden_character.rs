@@ -7,7 +7,7 @@ use hikage::golden::{Goldens, Tolerance};
 use hikage::import::{Limits, load_bytes};
 use hikage::motion::{Pose, Stance};
 use hikage::scene::{Framing, HumanBone, Image, Role, Scene};
-use hikage::sdf::{Key, Mask, bake};
+use hikage::sdf::{BakeOptions, Key, Mask, bake};
 use hikage::{Background, Channel, Gpu, GpuScene, Look, Output, Renderer, View, color::Srgb};
 use hikage_character::head::sdf;
 
@@ -129,7 +129,8 @@ impl Studio {
 #[test]
 fn the_anime_look_is_as_before() {
     let key = |(angle_rad, side, coverage)| Key { angle_rad, mask: Mask { width: side, height: side, coverage } };
-    let painted = bake(&sdf::keys().into_iter().map(key).collect::<Vec<_>>()).expect("her keys are nested");
+    let keys: Vec<Key> = sdf::keys().into_iter().map(key).collect();
+    let painted = bake(&keys, &BakeOptions::default()).expect("her keys are nested").map;
     let mut studio = Studio::open_with(|scene| Look::Anime { face: Some(painted) }.apply(scene));
     for degrees in [-120, -75, -40, 0, 40, 75, 120] {
         studio.light_deg = [degrees as f32, 25.0];
