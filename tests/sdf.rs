@@ -1,6 +1,6 @@
 //! Distances and threshold maps against float64 vectors; the built-in character's face keys through the same code.
 
-use hikage::sdf::{BakeOptions, Key, Mask, bake, distance_squared};
+use hikage::sdf::{BakeOptions, Key, Mask, Project, ProjectKey, bake, check, distance_squared};
 use serde_json::Value;
 
 fn vectors() -> Value {
@@ -55,11 +55,30 @@ fn thresholds_match_the_vectors() {
 
 #[test]
 fn the_built_in_face_keys_bake_and_come_back() {
-    let key = |(angle_rad, side, coverage)| Key { angle_rad, mask: Mask { width: side, height: side, coverage } };
-    let keys: Vec<Key> = hikage_character::head::sdf::keys().into_iter().map(key).collect();
-    let map = bake(&keys, &BakeOptions::default()).expect("her keys are nested").map;
-    for key in &keys {
-        let wrong = map.mask(key.angle_rad).lit().zip(key.mask.lit()).filter(|(a, b)| a != b).count();
-        assert_eq!(wrong, 0, "texels at {} rad", key.angle_rad);
+    let project = Project::parse("face.sdf.toml", hikage_character::head::sdf::SOURCE).expect("her project");
+    for bits in [8, 16] {
+        let project = Project { bits, ..project.clone() };
+        let baked = project.bake(false).expect("her keys are nested");
+        for key in &project.keys {
+            let drawn = project.mask(key.angle()).expect("draws");
+            let found = baked.left.map.mask(key.angle().to_radians());
+            let wrong = found.lit().zip(drawn.lit()).filter(|(a, b)| a != b).count();
+            assert_eq!(wrong, 0, "texels at {} degrees, {bits} bits", key.angle());
+        }
+        // The outermost strips of her texture lie behind the ears, where normals shade.
+        let remarks = check(&project, &baked).expect("checks");
+        assert!(remarks.iter().all(|r| !r.is_fault && r.message.contains("in front")), "{remarks:?}");
     }
+}
+
+/// Between the keys too, shapes never light up again what they have left dark.
+#[test]
+fn the_lit_part_of_the_built_in_face_only_shrinks() {
+    let project = Project::parse("face.sdf.toml", hikage_character::head::sdf::SOURCE).expect("her project");
+    let every_second = (0..=180).step_by(2).map(|angle| ProjectKey::Angle(angle as f32)).collect();
+    let baked = Project { keys: every_second, ..project }.bake(false).expect("nested at every angle");
+    let all = baked.left.map.codes.len();
+    let lit = |degrees: f32| baked.left.map.mask(degrees.to_radians()).lit().filter(|l| *l).count();
+    assert!(lit(0.0) > all * 9 / 10, "light from the front leaves the face dark");
+    assert_eq!(lit(180.0), 0, "light from behind reaches the face");
 }

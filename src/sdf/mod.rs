@@ -16,6 +16,7 @@ mod project;
 mod shapes;
 mod source;
 mod stack;
+mod svg_path;
 mod threshold;
 
 pub use check::{Remark, check};

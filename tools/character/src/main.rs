@@ -27,9 +27,6 @@ fn main() -> std::io::Result<()> {
             std::fs::write(folder.join(format!("{}.png", texture.name)), (texture.paint)().png())?;
         }
         std::fs::write(folder.join("face.sdf.toml"), sdf::SOURCE)?;
-        for angle in sdf::angles() {
-            std::fs::write(folder.join(format!("face_sdf_{angle:03}.png")), sdf::mask(angle).png())?;
-        }
     }
     Ok(())
 }

@@ -4,10 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::LazyLock;
 
 use glam::Vec3;
-use hikage_character::head::{lids, sdf};
+use hikage_character::head::lids;
 use hikage_character::mesh::{Part, Vertex};
 use hikage_character::model::Model;
-use hikage_character::picture::Picture;
 
 static MODEL: LazyLock<Model> = LazyLock::new(hikage_character::build);
 
@@ -250,22 +249,6 @@ fn the_presets_of_vrm_are_there() {
         "blinkRight", "lookUp", "lookDown", "lookLeft", "lookRight", "neutral",
     ] {
         assert!(names.contains(name), "{name} is missing");
-    }
-}
-
-/// A threshold map can hold one border for each pixel only: what has gone dark stays dark.
-#[test]
-fn the_lit_part_of_the_face_only_shrinks() {
-    let masks: Vec<_> = (0..=180).step_by(2).map(|angle| (angle, sdf::mask(angle as f32))).collect();
-    let lit = |mask: &Picture| mask.rgba.iter().filter(|p| p[0] > 127).count();
-    let all = masks[0].1.rgba.len();
-    assert!(lit(&masks[0].1) > all * 9 / 10, "light from the front leaves the face dark");
-    assert_eq!(lit(&masks[90].1), 0, "light from behind reaches the face");
-    for pair in masks.windows(2) {
-        let [(from, before), (to, after)] = pair else { unreachable!("windows of two") };
-        let grown: Vec<usize> = (0..all).filter(|i| after.rgba[*i][0] > 127 && before.rgba[*i][0] < 128).collect();
-        let place = grown.first().map(|i| (i % before.width as usize, i / before.width as usize));
-        assert!(grown.is_empty(), "{} pixels light up again from {from} to {to} degrees, first {place:?}", grown.len());
     }
 }
 

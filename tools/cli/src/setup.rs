@@ -6,7 +6,7 @@ use std::path::Path;
 
 use hikage::motion::{Pose, Stance};
 use hikage::scene::Scene;
-use hikage::sdf::{BakeOptions, Key, Mask, ThresholdMap, bake};
+use hikage::sdf::{Project, ThresholdMap};
 use hikage::{Gpu, Look, LookFile};
 use hikage_character::head::sdf;
 
@@ -76,9 +76,12 @@ fn painted(model: Option<&Path>) -> Result<Option<ThresholdMap>, Failure> {
     if model.is_some() {
         return Ok(None);
     }
-    let key = |(angle_rad, side, coverage)| Key { angle_rad, mask: Mask { width: side, height: side, coverage } };
-    let keys: Vec<Key> = sdf::keys().into_iter().map(key).collect();
-    Ok(Some(bake(&keys, &BakeOptions::default())?.map))
+    Ok(Some(built_in_project()?.bake(false)?.left.map))
+}
+
+/// The drawings of the built-in character's face.
+pub(crate) fn built_in_project() -> Result<Project, Failure> {
+    Ok(Project::parse("face.sdf.toml", sdf::SOURCE)?)
 }
 
 /// The model in a stance with these expressions.

@@ -7,7 +7,7 @@ use hikage::golden::{Goldens, Tolerance};
 use hikage::import::{Limits, load_bytes};
 use hikage::motion::{Pose, Stance};
 use hikage::scene::{Framing, HumanBone, Image, Role, Scene};
-use hikage::sdf::{BakeOptions, Key, Mask, bake};
+use hikage::sdf::Project;
 use hikage::{Background, Channel, Gpu, GpuScene, Look, Output, Renderer, View, color::Srgb};
 use hikage_character::head::sdf;
 
@@ -128,9 +128,8 @@ impl Studio {
 
 #[test]
 fn the_anime_look_is_as_before() {
-    let key = |(angle_rad, side, coverage)| Key { angle_rad, mask: Mask { width: side, height: side, coverage } };
-    let keys: Vec<Key> = sdf::keys().into_iter().map(key).collect();
-    let painted = bake(&keys, &BakeOptions::default()).expect("her keys are nested").map;
+    let project = Project::parse("face.sdf.toml", sdf::SOURCE).expect("her keys");
+    let painted = project.bake(false).expect("her keys are nested").left.map;
     let mut studio = Studio::open_with(|scene| Look::Anime { face: Some(painted) }.apply(scene));
     for degrees in [-120, -75, -40, 0, 40, 75, 120] {
         studio.light_deg = [degrees as f32, 25.0];
