@@ -10,12 +10,12 @@ use crate::material::{
     Shading, Transition,
 };
 use crate::scene::{Bangs, EyesThrough, Role, Scene};
-use crate::sdf::{FaceMap, ThresholdMap, face_map};
+use crate::sdf::{FaceMap, Sides, face_map};
 
 /// Materials that get a face's shadow: characters have one to three, and a file of thousands must not fill the memory.
 const MOST_FACES: usize = 16;
 
-pub(super) fn apply(scene: &mut Scene, painted: Option<&ThresholdMap>) {
+pub(super) fn apply(scene: &mut Scene, painted: Option<&Sides>) {
     scene.bangs = Some(Bangs::default());
     scene.eyes_through = Some(EyesThrough::default());
     outlines(scene);
@@ -109,7 +109,7 @@ fn hair(scene: &mut Scene) {
     hair_band::add(scene, &bare);
 }
 
-fn faces(scene: &mut Scene, painted: Option<&ThresholdMap>) {
+fn faces(scene: &mut Scene, painted: Option<&Sides>) {
     for index in materials_of(scene, Role::Face).into_iter().take(MOST_FACES) {
         let map = face_map(scene, index).map(|mesh| match painted {
             Some(painted) => over(painted, &mesh),
@@ -174,8 +174,8 @@ fn shade_factor(material: &Material) -> [f32; 3] {
 }
 
 /// The painted thresholds, with the regions of the map from the mesh.
-fn over(painted: &ThresholdMap, mesh: &FaceMap) -> FaceMap {
-    let mut texels = painted.mirrored();
+fn over(painted: &Sides, mesh: &FaceMap) -> FaceMap {
+    let mut texels = painted.texels();
     let [width, height] = [texels.width as usize, texels.height as usize];
     let regions = mesh.front.first().map_or(&[] as &[[u16; 4]], Vec::as_slice);
     for (i, texel) in texels.rgba.iter_mut().enumerate() {

@@ -163,7 +163,7 @@ impl LookFile {
     /// # Errors
     /// [`Error::Input`] for a part, a material or a key that does not exist, a value out of its domain, or a texture that
     /// cannot be read; the scene may be changed in part then.
-    pub fn apply(&self, scene: &mut Scene, face: Option<&crate::sdf::ThresholdMap>) -> Result<()> {
+    pub fn apply(&self, scene: &mut Scene, face: Option<&crate::sdf::Sides>) -> Result<()> {
         for (name, role) in &self.document.parts {
             self.correct(scene, name, *role)?;
         }

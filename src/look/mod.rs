@@ -8,7 +8,7 @@ mod values;
 pub use look_file::LookFile;
 
 use crate::scene::Scene;
-use crate::sdf::ThresholdMap;
+use crate::sdf::Sides;
 
 /// What a character is made to look like.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -20,9 +20,8 @@ pub enum Look {
     /// theirs on it; eyes and brows are seen through them; a band of light lies round the hair and follows view and light;
     /// light turns warm before it turns to shade; contours towards the light have a rim.
     Anime {
-        /// Threshold map painted for light from the character's left, over the face's texture; the other side mirrors
-        /// it. `None`: one is made from the mesh of each face.
-        face: Option<ThresholdMap>,
+        /// Painted threshold maps over the face's texture. `None`: they are made from the mesh of each face.
+        face: Option<Sides>,
     },
 }
 

@@ -193,6 +193,22 @@ impl Sides {
         Ok(bytes)
     }
 
+    /// The map as [`FaceShadow`](crate::material::FaceShadow) reads it by default: lilToon's channels, linear angles.
+    #[must_use]
+    pub fn texels(&self) -> Texels {
+        let linear = |map: &ThresholdMap| match map.profile {
+            Profile::Linear => map.clone(),
+            _ => map.converted(&Profile::Linear, map.depth),
+        };
+        let left = linear(&self.left);
+        let right = self.right.as_ref().map_or_else(|| left.flipped(), linear);
+        let is_8_bit = left.depth == Depth::Eight;
+        let wide = |code: &u16| if is_8_bit { code * 257 } else { *code };
+        let both = right.codes.iter().zip(&left.codes);
+        let rgba = both.map(|(right, left)| [wide(right), wide(left), 0, u16::MAX]).collect();
+        Texels { width: left.width, height: left.height, rgba, is_8_bit }
+    }
+
     /// Takes the thresholds out of a picture.
     ///
     /// # Errors
@@ -284,6 +300,16 @@ mod tests {
                 let mirrored = Sides { right: None, ..sides.clone() }.encode(&layout, none).expect("encodes");
                 assert!(mirrored == sides.encode(&layout, none).expect("encodes"), "{text}");
             }
+        }
+    }
+
+    #[test]
+    fn the_shader_gets_both_sides() {
+        let sides = sides(Depth::Sixteen);
+        let texels = Sides { right: None, ..sides.clone() }.texels();
+        assert_eq!(texels, sides.texels());
+        for row in texels.rgba.chunks_exact(4) {
+            assert!((0..4).all(|x| row[x][0] == row[3 - x][1]));
         }
     }
 

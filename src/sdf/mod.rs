@@ -23,7 +23,7 @@ pub use check::{Remark, check};
 pub use columns::MAX_SIDE;
 pub use distance::{NEVER, distance_squared};
 pub use face_map::{FaceLayout, FaceMap, MAX_PITCHES, Texels};
-pub use guide::face_map;
+pub use guide::{face_map, wireframe};
 pub use layout::{ChannelSource, Layout, Sides};
 pub use mask::{LIT, Mask};
 pub use profile::Profile;

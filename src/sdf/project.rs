@@ -72,6 +72,24 @@ const fn sixteen() -> u8 {
     16
 }
 
+impl Default for Project {
+    /// No keys, and the defaults of all else.
+    fn default() -> Self {
+        Self {
+            size: None,
+            mirror: true,
+            bits: 16,
+            dither: false,
+            profile: Profile::default(),
+            layout: Layout::default(),
+            cap_front: CapFront::default(),
+            keys: Vec::new(),
+            shapes: Vec::new(),
+            path: PathBuf::new(),
+        }
+    }
+}
+
 /// Sides of a mask, texels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(untagged)]
@@ -165,7 +183,7 @@ impl Project {
             fault(format!("line {line}: {}", e.message().replace('\n', " ")))
         })?;
         let project = Self { path: path.clone(), ..project };
-        project.check().map_err(fault)?;
+        project.check()?;
         Ok(project)
     }
 
@@ -184,7 +202,25 @@ impl Project {
         Self::parse(path, &text)
     }
 
-    fn check(&self) -> Result<(), String> {
+    /// Refuses what cannot be baked, as far as it shows without the drawings.
+    ///
+    /// # Errors
+    /// [`Error::Input`] that names the fault.
+    pub fn check(&self) -> Result<()> {
+        self.first_fault().map_err(|message| self.fault(message))
+    }
+
+    fn fault(&self, message: impl Into<String>) -> Error {
+        // A project that was made in code has no file.
+        let path = if self.path.as_os_str().is_empty() {
+            "keys".into()
+        } else {
+            self.path.display().to_string()
+        };
+        Error::Input { path, pointer: "project".into(), message: message.into() }
+    }
+
+    fn first_fault(&self) -> Result<(), String> {
         if !matches!(self.bits, 8 | 16) {
             return Err(format!("bits = {}; expected 8 or 16", self.bits));
         }
@@ -200,9 +236,6 @@ impl Project {
         }
         if angles.iter().filter(|a| **a >= 0.0).count() == 0 {
             return Err("has no key at an angle from 0 on; expected keys for light from the left".into());
-        }
-        if angles.first().is_some_and(|a| *a < 0.0) && self.shapes.is_empty() && self.keys.len() < 2 {
-            return Err("has one key only".into());
         }
         self.profile.check().map_err(|e| e.to_string())?;
         Drawing::new(&self.shapes).map(|_| ())
@@ -271,11 +304,7 @@ impl Project {
                 None
             }
         });
-        let key = drawn.ok_or_else(|| Error::Input {
-            path: self.path.display().to_string(),
-            pointer: "project".into(),
-            message: "has no drawing and no size; expected size = 1024 or the like".into(),
-        })?;
+        let key = drawn.ok_or_else(|| self.fault("has no drawing and no size; expected size = 1024 or the like"))?;
         Ok(Source::file(&self.file_of(key)?)?.size)
     }
 
@@ -310,11 +339,7 @@ impl Project {
     }
 
     fn drawing(&self) -> Result<Drawing> {
-        Drawing::new(&self.shapes).map_err(|message| Error::Input {
-            path: self.path.display().to_string(),
-            pointer: "project".into(),
-            message,
-        })
+        Drawing::new(&self.shapes).map_err(|message| self.fault(message))
     }
 
     /// Bakes both sides.

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use super::distance::for_each_row;
 use super::source::Source;
 use super::stack::{Contradiction, Stack};
-use super::{FaceLayout, Mask, Profile, Texels};
+use super::{Mask, Profile};
 use crate::{Error, Result};
 
 /// What is lit at one angle of the light.
@@ -373,24 +373,6 @@ impl ThresholdMap {
         let coverage = self.codes.iter().map(|code| if lit(code) { 255 } else { 0 }).collect();
         Mask { width: self.width, height: self.height, coverage }
     }
-
-    /// The map in lilToon's layout: red for light from the character's right, green for light from her left, blue
-    /// (share of normal shading) 0, alpha (strength) full. This map is for light from her left, which is the right of the
-    /// texture; red is its mirror image. Values are those of the profile, in 16 bits.
-    #[must_use]
-    pub fn mirrored(&self) -> Texels {
-        let wide = |code: &u16| if self.depth == Depth::Eight { code * 257 } else { *code };
-        let value = |code: &u16| {
-            if self.profile.is_falling() {
-                u16::MAX - wide(code)
-            } else {
-                wide(code)
-            }
-        };
-        let rgba = self.codes.iter().map(|code| [value(code); 4]).collect();
-        Texels { width: self.width, height: self.height, rgba, is_8_bit: self.depth == Depth::Eight }
-            .laid_out(FaceLayout::Mirrored)
-    }
 }
 
 #[cfg(test)]
@@ -551,14 +533,6 @@ mod tests {
         let options = BakeOptions { depth: Depth::Eight, ..BakeOptions::default() };
         let fault = bake(&close, &options).unwrap_err().to_string();
         assert!(fault.contains("too close for 8 bits") && bake(&close, &BakeOptions::default()).is_ok(), "{fault}");
-    }
-
-    #[test]
-    fn both_sides_are_mirror_images() {
-        let map = map(&keys(), &BakeOptions::default());
-        for row in map.mirrored().rgba.chunks_exact(40) {
-            assert!((0..40).all(|x| row[x][0] == row[39 - x][1]));
-        }
     }
 
     proptest! {

@@ -1,6 +1,7 @@
 //! The program `hikage`: draws, inspects and measures VRM and glTF characters.
 
 mod adapters;
+mod animation;
 mod args;
 mod bench;
 mod compare_references;
@@ -10,6 +11,7 @@ mod inspect;
 mod look;
 mod output;
 mod render;
+mod sdf;
 mod setup;
 mod sheet;
 mod shot;
@@ -54,6 +56,8 @@ enum Command {
     Sheet(sheet::Args),
     /// Write a look file with every number of the anime look, to start from. Needs no GPU.
     Look(look::Args),
+    /// Author threshold maps of painted face shadows.
+    Sdf(sdf::Args),
     /// Tell what a model, an image or a shader holds, and what will look wrong. Needs no GPU.
     Inspect(inspect::Args),
     /// Measure the time of a frame, against the same meshes drawn unlit.
@@ -102,6 +106,7 @@ fn run(command: Command) -> Result<(), Failure> {
         Command::Render(args) => render::run(&args),
         Command::Sheet(args) => sheet::run(&args),
         Command::Look(args) => look::run(&args),
+        Command::Sdf(args) => sdf::run(&args),
         Command::Inspect(args) => inspect::run(&args),
         Command::Bench(args) => bench::run(&args),
         Command::Adapters(args) => adapters::run(&args),

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use hikage::motion::{Pose, Stance};
 use hikage::scene::Scene;
-use hikage::sdf::{Project, ThresholdMap};
+use hikage::sdf::{Project, Sides};
 use hikage::{Gpu, Look, LookFile};
 use hikage_character::head::sdf;
 
@@ -72,11 +72,11 @@ pub(crate) fn apply_look(name: Option<&LookName>, model: Option<&Path>, scene: &
 }
 
 /// Thresholds of the face of the built-in character, which has painted keys.
-fn painted(model: Option<&Path>) -> Result<Option<ThresholdMap>, Failure> {
+fn painted(model: Option<&Path>) -> Result<Option<Sides>, Failure> {
     if model.is_some() {
         return Ok(None);
     }
-    Ok(Some(built_in_project()?.bake(false)?.left.map))
+    Ok(Some(built_in_project()?.bake(false)?.into_sides()))
 }
 
 /// The drawings of the built-in character's face.

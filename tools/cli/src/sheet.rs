@@ -55,11 +55,11 @@ enum Sweep {
 const COLUMNS: usize = 4;
 const SWEEP_COLUMNS: usize = 13;
 /// Space between panels, and height of the line under each, pixels.
-const GAP: u32 = 8;
-const LINE: u32 = 24;
+pub(crate) const GAP: u32 = 8;
+pub(crate) const LINE: u32 = 24;
 const PAPER: [u8; 3] = [0xf4, 0xf5, 0xf7];
 const INK: [u8; 3] = [0x30, 0x34, 0x3c];
-const BEHIND: Srgb = Srgb([0xdf, 0xe7, 0xee]);
+pub(crate) const BEHIND: Srgb = Srgb([0xdf, 0xe7, 0xee]);
 
 /// One panel.
 struct Panel {
@@ -222,14 +222,14 @@ fn view(scene: &Scene, shown: &Panel, pose: &Pose, size: [u32; 2]) -> View {
     view
 }
 
-fn paper(width: u32, height: u32) -> Image {
+pub(crate) fn paper(width: u32, height: u32) -> Image {
     let [r, g, b] = PAPER;
     let pixels = [r, g, b, 255].repeat(width as usize * height as usize);
     Image { width, height, pixels, format: "png", source_bits: 8, ..Image::default() }
 }
 
 /// Copies a picture onto the sheet.
-fn place(sheet: &mut Image, picture: &Image, left: u32, top: u32) {
+pub(crate) fn place(sheet: &mut Image, picture: &Image, left: u32, top: u32) {
     let (stride, width) = (sheet.width as usize * 4, picture.width as usize * 4);
     for (y, line) in picture.pixels.chunks_exact(width).enumerate() {
         let at = (top as usize + y) * stride + left as usize * 4;
@@ -238,7 +238,7 @@ fn place(sheet: &mut Image, picture: &Image, left: u32, top: u32) {
 }
 
 /// Writes one line, as far as the sheet is wide. Characters that the font lacks are shown as `?`.
-fn write(sheet: &mut Image, text: &str, left: u32, top: u32) {
+pub(crate) fn write(sheet: &mut Image, text: &str, left: u32, top: u32) {
     let glyph = |c| get_raster(c, FontWeight::Regular, RasterHeight::Size16);
     let mut left = left as usize;
     for raster in text.chars().filter_map(|c| glyph(c).or_else(|| glyph('?'))) {

@@ -24,6 +24,11 @@ impl Spinner {
         Self(bar)
     }
 
+    /// How many of so many steps are done.
+    pub(crate) fn progress(&self, done: usize, of: usize) {
+        self.0.set_message(format!("[{:<20}] {done} of {of}", "=".repeat(done * 20 / of.max(1))));
+    }
+
     /// What is being done now.
     pub(crate) fn step(&self, what: impl Into<String>) {
         self.0.set_message(what.into());

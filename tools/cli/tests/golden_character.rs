@@ -129,7 +129,7 @@ impl Studio {
 #[test]
 fn the_anime_look_is_as_before() {
     let project = Project::parse("face.sdf.toml", sdf::SOURCE).expect("her keys");
-    let painted = project.bake(false).expect("her keys are nested").left.map;
+    let painted = project.bake(false).expect("her keys are nested").into_sides();
     let mut studio = Studio::open_with(|scene| Look::Anime { face: Some(painted) }.apply(scene));
     for degrees in [-120, -75, -40, 0, 40, 75, 120] {
         studio.light_deg = [degrees as f32, 25.0];
