@@ -92,6 +92,19 @@ impl Nearest {
     pub(super) fn distance(&self, x: usize, row: i16) -> i16 {
         (row - self.last[x]).min(self.next[x] - row).clamp(0, FAR)
     }
+
+    /// Row of the texel at that distance.
+    pub(super) fn row(&self, x: usize, row: i16) -> usize {
+        let (up, down) = (row - self.last[x], self.next[x] - row);
+        (if up <= 0 {
+            row
+        } else if up <= down {
+            self.last[x]
+        } else {
+            self.next[x]
+        })
+        .max(0) as usize
+    }
 }
 
 /// The sets of all levels at one row.

@@ -33,7 +33,7 @@ pub fn distance_squared(mask: &Mask, to: bool) -> Vec<u32> {
             if scratch.runs(&group)[0].level == from {
                 scratch.measure(&group, y, set);
                 for run in scratch.runs(&group) {
-                    out[run.start..run.end].copy_from_slice(&scratch.squared[run.start..run.end]);
+                    out[run.start..run.end].copy_from_slice(&scratch.found.squared[run.start..run.end]);
                 }
             }
         }
@@ -71,10 +71,10 @@ pub(super) fn for_each_row<T: Send>(
 
 /// Memory for one row at a time.
 pub(super) struct Scratch {
-    /// Squared distances that were found last, texels²; [`NEVER`] for none.
-    pub(super) squared: Vec<u32>,
-    /// Room for those that were found before.
-    pub(super) before: Vec<u32>,
+    /// What was measured last.
+    pub(super) found: Found,
+    /// Room for what was measured before.
+    pub(super) before: Found,
     vertical: Vec<i16>,
     /// Runs of the row: by level, then from the left.
     runs: Vec<Run>,
@@ -82,6 +82,14 @@ pub(super) struct Scratch {
     sites: Vec<(i32, i32, f64)>,
     /// 1 / (2 d): a multiplication is faster than a division, and a rounding error matters where two sites tie only.
     halves: Vec<f64>,
+}
+
+/// Distances of the texels of a row to a set.
+pub(super) struct Found {
+    /// Squared, texels²; [`NEVER`] for none.
+    pub(super) squared: Vec<u32>,
+    /// Columns of the texels at that distance.
+    pub(super) nearest: Vec<u16>,
 }
 
 /// Texels of a row that have one level.
@@ -93,11 +101,17 @@ pub(super) struct Run {
     pub(super) end: usize,
 }
 
+impl Found {
+    fn new(width: usize) -> Self {
+        Self { squared: vec![NEVER; width], nearest: vec![0; width] }
+    }
+}
+
 impl Scratch {
     fn new(width: usize) -> Self {
         Self {
-            squared: vec![NEVER; width],
-            before: vec![NEVER; width],
+            found: Found::new(width),
+            before: Found::new(width),
             vertical: vec![0; width],
             runs: Vec::new(),
             sites: Vec::with_capacity(width),
@@ -180,7 +194,7 @@ impl Scratch {
 
     /// Lower envelope over some columns, read off at runs that stand in them.
     fn envelope(&mut self, columns: Range<usize>, runs: Range<usize>, y: i16, set: &Nearest) {
-        let Self { squared, vertical, runs: all, sites, halves, .. } = self;
+        let Self { found: Found { squared, nearest }, vertical, runs: all, sites, halves, .. } = self;
         let both = set.last[columns.clone()].iter().zip(&set.next[columns.clone()]);
         for (v, (last, next)) in vertical[columns.clone()].iter_mut().zip(both) {
             *v = (y - last).min(next - y).clamp(0, FAR);
@@ -212,6 +226,7 @@ impl Scratch {
                     break;
                 };
                 let until = sites.get(at + 1).map_or(run.end, |next| (next.2 as usize + 1).clamp(x + 1, run.end));
+                nearest[x..until].fill(site as u16);
                 let vertical = height - site * site;
                 for (p, out) in (x as i32..).zip(&mut squared[x..until]) {
                     *out = ((p - site) * (p - site) + vertical) as u32;
@@ -280,7 +295,7 @@ mod tests {
                             if scratch.runs(&group)[0].level == level {
                                 scratch.measure(&group, y, &set[usize::from(level)]);
                                 for run in scratch.runs(&group) {
-                                    out[run.start..run.end].copy_from_slice(&scratch.squared[run.start..run.end]);
+                                    out[run.start..run.end].copy_from_slice(&scratch.found.squared[run.start..run.end]);
                                 }
                             }
                         }

@@ -4,6 +4,7 @@
 //! at which it turns dark, by the exact distances to the borders of the two keys round it, so that the border of light
 //! and shade glides from one drawing to the next.
 
+mod border;
 mod check;
 mod columns;
 mod distance;

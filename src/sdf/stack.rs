@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use super::LIT;
+use super::border::{Border, BorderFinder};
 use super::columns::MAX_SIDE;
 use super::source::Source;
 use crate::{Error, Result};
@@ -36,6 +37,8 @@ pub(super) struct Stack {
     /// For each texel the number of keys, from the first, at which it is lit. Where keys contradict each other, the count
     /// that the fewest of them gainsay; of equal ones the lowest.
     pub(super) counts: Vec<u8>,
+    /// Of each key that has grey texels along its border.
+    pub(super) borders: Vec<Option<Border>>,
     pub(super) contradictions: Vec<Contradiction>,
     /// Texels at which keys contradict each other, in reading order.
     pub(super) wrong: Vec<u32>,
@@ -68,16 +71,23 @@ impl Stack {
             ROWS
         };
         let rows = rows.min(height);
-        let mut bands: Vec<Vec<u8>> = vec![vec![0; rows * width]; sources.len()];
+        // A byte of every eighth texel for all keys together, but enough for the edges of small masks.
+        let most = (width * height / (8 * sources.len().max(1))).max(16 * (width + height));
+        let mut bands: Vec<(Vec<u8>, BorderFinder)> =
+            sources.iter().map(|_| (vec![0; rows * width], BorderFinder::new(width, most))).collect();
         for top in (0..height).step_by(rows) {
             let texels = rows.min(height - top) * width;
-            sources.par_iter_mut().zip(&mut bands).try_for_each(|(source, band)| source.read(&mut band[..texels]))?;
+            sources.par_iter_mut().zip(&mut bands).try_for_each(|(source, (band, border))| {
+                source.read(&mut band[..texels])?;
+                border.add(&band[..texels]);
+                Ok(())
+            })?;
             let counts = &mut stack.counts[top * width..][..texels];
             let wrong: Vec<Wrong> = counts
                 .par_chunks_exact_mut(width)
                 .enumerate()
                 .map(|(y, counts)| {
-                    let keys: Vec<&[u8]> = bands.iter().map(|band| &band[y * width..(y + 1) * width]).collect();
+                    let keys: Vec<&[u8]> = bands.iter().map(|(band, _)| &band[y * width..(y + 1) * width]).collect();
                     count(&keys, counts)
                 })
                 .collect();
@@ -85,6 +95,7 @@ impl Stack {
                 stack.report(top + y, row, angles_rad);
             }
         }
+        stack.borders = bands.into_par_iter().map(|(_, border)| border.finish()).collect();
         Ok(stack)
     }
 

@@ -3,7 +3,9 @@
 use std::f64::consts::PI;
 use std::sync::atomic::{AtomicU32, Ordering};
 
-use super::distance::for_each_row;
+use super::border::{Border, HALF};
+use super::columns::Nearest;
+use super::distance::{Found, for_each_row};
 use super::source::Source;
 use super::stack::{Contradiction, Stack};
 use super::{Mask, Profile};
@@ -83,8 +85,8 @@ pub struct Baked {
 
 /// Finds the threshold of every texel.
 ///
-/// Between two keys it is divided by the distances to their borders (half a texel from the centres on either side), so
-/// that each key comes back exactly when the map is cut at its angle. Where the first of two keys has no border, what is
+/// Between two keys it is divided by the distances to their borders (half a texel from the centres on either side; where
+/// grey texels lie along a border, they say where it runs), so that each key comes back exactly when the map is cut at its angle. Where the first of two keys has no border, what is
 /// farthest from the second one goes first; where the second is empty, what is deepest goes last.
 ///
 /// # Errors
@@ -201,9 +203,6 @@ fn bands(angles_rad: &[f32], options: &BakeOptions) -> Result<Vec<Band>> {
     angles_rad.windows(2).map(band).collect()
 }
 
-/// How far the borders' distances are from those of the texels' centres.
-const HALF: f64 = 0.5;
-
 fn codes(stack: &Stack, bands: &[Band], options: &BakeOptions) -> Vec<u16> {
     let keys = bands.len() + 1;
     let mut codes = vec![0u16; stack.counts.len()];
@@ -221,35 +220,46 @@ fn codes(stack: &Stack, bands: &[Band], options: &BakeOptions) -> Vec<u16> {
             if level > lowest {
                 scratch.measure(&group, y, &sweep.below[level]);
             }
-            std::mem::swap(&mut scratch.squared, &mut scratch.before);
+            std::mem::swap(&mut scratch.found, &mut scratch.before);
             if level < highest {
                 scratch.measure(&group, y, &sweep.above[level]);
             }
             let band = &bands[level - 1];
+            let (inner, outer) = (stack.borders[level - 1].as_ref(), stack.borders[level].as_ref());
+            let dithers = options.dither && options.depth == Depth::Eight;
+            let shift = |x: usize| if dithers { bayer(x, y) } else { 0.0 };
             for run in scratch.runs(&group) {
                 let texels = run.start..run.end;
-                let (inside, outside) = (&scratch.before[texels.clone()], &scratch.squared[texels.clone()]);
-                let shift = |i: usize| {
-                    if options.dither && options.depth == Depth::Eight {
-                        bayer(run.start + i, y)
-                    } else {
-                        0.0
-                    }
-                };
-                if level > lowest && level < highest {
-                    band.between(inside, outside, &mut out[texels], options, shift);
-                } else {
-                    let share = |i: usize| match (level > lowest, level < highest) {
-                        (true, _) => distance(inside[i]) / deepest.inside,
-                        (_, true) => 1.0 - distance(outside[i]) / deepest.outside,
-                        _ => 0.5,
+                let plain = level > lowest && level < highest && inner.is_none() && outer.is_none() && !dithers;
+                if plain {
+                    let (inside, outside) =
+                        (&scratch.before.squared[texels.clone()], &scratch.found.squared[texels.clone()]);
+                    band.between(inside, outside, &mut out[texels]);
+                    continue;
+                }
+                let inside = |x: usize| to_border(&scratch.before, x, y, &sweep.below[level], inner);
+                let outside = |x: usize| to_border(&scratch.found, x, y, &sweep.above[level], outer);
+                for x in texels {
+                    let share = match (level > lowest, level < highest) {
+                        (true, true) => inside(x) / (inside(x) + outside(x)),
+                        (true, false) => inside(x) / deepest.inside,
+                        (false, true) => 1.0 - outside(x) / deepest.outside,
+                        (false, false) => 0.5,
                     };
-                    out[texels].iter_mut().enumerate().for_each(|(i, code)| *code = band.code(share(i), shift(i)));
+                    out[x] = band.code(share, shift(x));
                 }
             }
         }
     });
     codes
+}
+
+/// Distance from a texel to the border beyond it, which runs half a texel before the nearest centre or where an
+/// antialiased border says.
+fn to_border(found: &Found, x: usize, y: i16, set: &Nearest, border: Option<&Border>) -> f64 {
+    let Some(border) = border else { return distance(found.squared[x]) };
+    let nearest = usize::from(found.nearest[x]);
+    border.between([x, y as usize], [nearest, set.row(nearest, y)])
 }
 
 fn seen(counts: &[u8]) -> [bool; 256] {
@@ -260,7 +270,7 @@ fn seen(counts: &[u8]) -> [bool; 256] {
 
 /// Distance from a texel to a border.
 fn distance(squared: u32) -> f64 {
-    f64::from(squared).sqrt() - HALF
+    f64::from(squared).sqrt() - f64::from(HALF)
 }
 
 /// Distances of what is farthest from the only border that its band has, and half a texel more.
@@ -285,12 +295,12 @@ impl Deepest {
                         _ => continue,
                     };
                     scratch.measure(&group, y, set);
-                    let found = scratch.runs(&group).iter().flat_map(|r| &scratch.squared[r.start..r.end]).max();
+                    let found = scratch.runs(&group).iter().flat_map(|r| &scratch.found.squared[r.start..r.end]).max();
                     greatest[side].fetch_max(found.copied().unwrap_or(0), Ordering::Relaxed);
                 }
             });
         }
-        let [inside, outside] = greatest.map(|g| distance(g.into_inner()) + HALF);
+        let [inside, outside] = greatest.map(|g| distance(g.into_inner()) + f64::from(HALF));
         Self { inside, outside }
     }
 }
@@ -303,14 +313,7 @@ impl Band {
     }
 
     /// Codes of texels that have both borders: in single precision, and anew in double where that could round wrongly.
-    fn between(
-        &self,
-        inside: &[u32],
-        outside: &[u32],
-        out: &mut [u16],
-        options: &BakeOptions,
-        shift: impl Fn(usize) -> f64,
-    ) {
+    fn between(&self, inside: &[u32], outside: &[u32], out: &mut [u16]) {
         const LANES: usize = 8;
         /// Adding it rounds to whole numbers.
         const ROUND: f32 = 8_388_608.0;
@@ -318,12 +321,8 @@ impl Band {
         const UNSURE: f32 = 0.5 - 0.02;
         let exact = |i: usize| {
             let (inside, outside) = (distance(inside[i]), distance(outside[i]));
-            self.code(inside / (inside + outside), shift(i))
+            self.code(inside / (inside + outside), 0.0)
         };
-        if options.dither {
-            (0..out.len()).for_each(|i| out[i] = exact(i));
-            return;
-        }
         let (from, span) = (self.from as f32, (self.to - self.from) as f32);
         let (low, high) = (f32::from(self.low), f32::from(self.high));
         let blocks = inside.chunks(LANES).zip(outside.chunks(LANES)).enumerate();
@@ -533,6 +532,47 @@ mod tests {
         let options = BakeOptions { depth: Depth::Eight, ..BakeOptions::default() };
         let fault = bake(&close, &options).unwrap_err().to_string();
         assert!(fault.contains("too close for 8 bits") && bake(&close, &BakeOptions::default()).is_ok(), "{fault}");
+    }
+
+    /// Two circles: the border between them is a circle, too.
+    #[test]
+    fn grey_edges_place_borders_within_the_texel() {
+        let size = 96u32;
+        let disc = |radius: f64, smooth: bool| {
+            let coverage = |i: u32| {
+                let (x, y) = (f64::from(i % size), f64::from(i / size));
+                let inside = |s: u32| {
+                    let (u, v) = (f64::from(s % 16) + 0.5, f64::from(s / 16) + 0.5);
+                    (x + u / 16.0 - 48.2).hypot(y + v / 16.0 - 47.7) < radius
+                };
+                let share = (0..256).filter(|s| inside(*s)).count();
+                if smooth {
+                    (share * 255 / 256) as u8
+                } else {
+                    255 * u8::from(share >= 128)
+                }
+            };
+            Mask { width: size, height: size, coverage: (0..size * size).map(coverage).collect() }
+        };
+        let mean_error = |smooth: bool| {
+            let keys = [(0.3, 40.3), (1.3, 24.9)].map(|(angle_rad, r)| Key { angle_rad, mask: disc(r, smooth) });
+            let map = map(&keys, &BakeOptions::default());
+            for key in &keys {
+                assert!(map.mask(key.angle_rad).lit().eq(key.mask.lit()), "{smooth}");
+            }
+            let errors = (0..map.codes.len()).filter_map(|i| {
+                let (x, y) = ((i as u32 % size) as f64 + 0.5, (i as u32 / size) as f64 + 0.5);
+                let radius = (x - 48.2).hypot(y - 47.7);
+                let exact = (40.3 - radius) / (40.3 - 24.9);
+                let found = (map.value(i) * std::f64::consts::PI - 0.3) / 1.0;
+                // In texels of the border's way.
+                (0.0..1.0).contains(&exact).then_some((found - exact).abs() * (40.3 - 24.9))
+            });
+            let (sum, count) = errors.fold((0.0, 0), |(sum, count), e| (sum + e, count + 1));
+            sum / f64::from(count)
+        };
+        let [hard, smooth] = [false, true].map(mean_error);
+        assert!(smooth < 0.04 && smooth * 3.0 < hard, "{smooth} and {hard} texels");
     }
 
     proptest! {
