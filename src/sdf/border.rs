@@ -69,8 +69,7 @@ impl BorderFinder {
     /// The next rows.
     pub(super) fn add(&mut self, coverage: &[u8]) {
         let is_soft = |row: &[u8]| row.iter().fold(0u8, |any, c| any | (c.wrapping_add(1) & 0xfe)) != 0;
-        let mut rows = coverage.chunks_exact(self.width).peekable();
-        while let Some(next) = rows.next() {
+        for next in coverage.chunks_exact(self.width) {
             if !self.row.is_empty() && is_soft(&self.row) {
                 self.find(next);
             }
@@ -197,9 +196,9 @@ mod tests {
             let border = find(24, &mask, 24).expect("grey texels");
             assert_eq!(Some(&border), find(24, &mask, 5).as_ref(), "in bands");
             let mut checked = 0;
-            for i in 0..24 * 24 {
+            for (i, coverage) in mask.iter().enumerate() {
                 let (x, y) = (i % 24, i / 24);
-                if (2..22).contains(&x) && (2..22).contains(&y) && !matches!(mask[i], 0 | 255) {
+                if (2..22).contains(&x) && (2..22).contains(&y) && !matches!(coverage, 0 | 255) {
                     let exact = ((x as f32 + 0.5) * cos + (y as f32 + 0.5) * sin - shift).abs();
                     let found = border.row(y, x, x)[0].1.abs();
                     assert!((found - exact).abs() < 0.05, "{found} for {exact} at {x}, {y}, {angle} rad");

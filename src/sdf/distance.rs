@@ -73,8 +73,9 @@ pub(super) fn for_each_row<T: Send>(
 pub(super) struct Scratch {
     /// What was measured last.
     pub(super) found: Found,
-    /// Room for what was measured before.
+    /// Room for what was measured before, and before that.
     pub(super) before: Found,
+    pub(super) next_but_one: [Found; 2],
     vertical: Vec<i16>,
     /// Runs of the row: by level, then from the left.
     runs: Vec<Run>,
@@ -112,6 +113,7 @@ impl Scratch {
         Self {
             found: Found::new(width),
             before: Found::new(width),
+            next_but_one: [Found::new(width), Found::new(width)],
             vertical: vec![0; width],
             runs: Vec::new(),
             sites: Vec::with_capacity(width),

@@ -32,4 +32,4 @@ pub use project::{BakedSides, CapFront, DrawnKey, Project, ProjectKey, Size};
 pub use shapes::{Drawing, Ellipse, Shape, ShapeKey, ShapeKind, Tween};
 pub use source::{MaskChannel, MaskFile};
 pub use stack::{Contradiction, MAX_KEYS};
-pub use threshold::{BakeOptions, Baked, Depth, Key, ThresholdMap, bake};
+pub use threshold::{BakeOptions, Baked, Blend, Depth, Key, Session, ThresholdMap, bake};

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::source::Source;
 use super::threshold::bake_sources;
-use super::{BakeOptions, Baked, Depth, Drawing, Layout, Mask, MaskChannel, MaskFile, Profile, Shape, Sides};
+use super::{BakeOptions, Baked, Blend, Depth, Drawing, Layout, Mask, MaskChannel, MaskFile, Profile, Shape, Sides};
 use crate::import::{Limits, image};
 use crate::{Error, Result};
 
@@ -16,6 +16,7 @@ use crate::{Error, Result};
 /// size = 1024                         # texels, or [width, height]; that of the drawings, where there are any
 /// mirror = true                       # light from the right is the mirror image; default: true
 /// bits = 16                           # or 8; dither = true spreads the rounding of 8 bits
+/// blend = "linear"                    # smooth: without a change of speed at a key
 /// profile = "linear"                  # liltoon, genshin or [[angle, value], ...]
 /// layout = "liltoon"                  # single or ["left", "right", "area.png", "1"]
 /// cap_front = "lit"                   # "none": what is dark at the first key is dark at any angle
@@ -45,6 +46,9 @@ pub struct Project {
     /// See [`BakeOptions::dither`]. Default: false.
     #[serde(default)]
     pub dither: bool,
+    /// See [`Blend`]. Default: linear.
+    #[serde(default)]
+    pub blend: Blend,
     /// See [`Profile`]. Default: linear.
     #[serde(default)]
     pub profile: Profile,
@@ -80,6 +84,7 @@ impl Default for Project {
             mirror: true,
             bits: 16,
             dither: false,
+            blend: Blend::default(),
             profile: Profile::default(),
             layout: Layout::default(),
             cap_front: CapFront::default(),
@@ -360,7 +365,13 @@ impl Project {
         }
         let size = self.size()?;
         let drawing = self.drawing()?;
-        let options = BakeOptions { profile: self.profile.clone(), depth: self.depth(), dither: self.dither, repair };
+        let options = BakeOptions {
+            profile: self.profile.clone(),
+            depth: self.depth(),
+            dither: self.dither,
+            blend: self.blend,
+            repair,
+        };
         let side = |right: bool| {
             let keys = self.side(right);
             let angles: Vec<f32> = keys.iter().map(|k| k.0.to_radians()).collect();

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 
 use super::border::{Border, HALF};
 use super::columns::Nearest;
-use super::distance::{Found, for_each_row};
+use super::distance::{Found, Scratch, for_each_row};
 use super::source::Source;
 use super::stack::{Contradiction, Stack};
 use super::{Mask, Profile};
@@ -30,8 +30,22 @@ pub struct BakeOptions {
     /// With 8 bits, spreads the rounding over an ordered pattern of 8 x 8 texels: errors of up to a code instead of half
     /// a code, but no steps. Default: false.
     pub dither: bool,
+    /// How the border moves through a key. Default: linear.
+    pub blend: Blend,
     /// Where keys contradict each other, takes what the fewest of them gainsay instead of failing. Default: false.
     pub repair: bool,
+}
+
+/// How the border moves through a key.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Blend {
+    /// At even speed between two keys, so that its speed changes at once at a key.
+    #[default]
+    Linear,
+    /// Without a change of speed at a key: the distances to the borders of four keys are laid through by a monotone cubic
+    /// (Fritsch and Butland 1984) over the thresholds. About three times the time.
+    Smooth,
 }
 
 /// Bits of a value.
@@ -104,22 +118,88 @@ pub fn bake(keys: &[Key], options: &BakeOptions) -> Result<Baked> {
     bake_sources(&angles, &mut keys.iter().map(|k| Source::mask(&k.mask)).collect::<Vec<_>>(), options)
 }
 
+/// Keys in memory and their map, for an editor: where one key changes, only what lies between it and its neighbours is
+/// found anew.
+pub struct Session {
+    keys: Vec<Key>,
+    options: BakeOptions,
+    stack: Stack,
+    bands: Vec<Band>,
+    map: ThresholdMap,
+}
+
+impl Session {
+    /// Bakes keys and keeps them.
+    ///
+    /// # Errors
+    /// Those of [`bake`].
+    pub fn new(keys: Vec<Key>, options: BakeOptions) -> Result<Self> {
+        let map = bake(&keys, &options)?.map;
+        let angles: Vec<f32> = keys.iter().map(|k| k.angle_rad).collect();
+        let stack = Self::stack(&keys)?;
+        Ok(Self { bands: bands(&angles, &options)?, stack, map, keys, options })
+    }
+
+    fn stack(keys: &[Key]) -> Result<Stack> {
+        let angles: Vec<f32> = keys.iter().map(|k| k.angle_rad).collect();
+        let mut sources: Vec<Source> = keys.iter().map(|k| Source::mask(&k.mask)).collect();
+        Stack::read(sources[0].size, &angles, &mut sources)
+    }
+
+    /// The map of the present keys.
+    #[must_use]
+    pub fn map(&self) -> &ThresholdMap {
+        &self.map
+    }
+
+    /// Takes another mask for a key; the map is that of [`bake`]. After an error all is as it was before.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for a key that does not exist, a mask of another size, and, without
+    /// [`repair`](BakeOptions::repair), texels that light up again.
+    pub fn replace(&mut self, key: usize, mut mask: Mask) -> Result<()> {
+        let Some(own) = self.keys.get_mut(key) else {
+            return Err(fault(format!("are {}; expected one of them, not number {key}", self.keys.len())));
+        };
+        let sizes = [&own.mask, &mask].map(|m| (m.width, m.height, m.coverage.len()));
+        if sizes[0] != sizes[1] {
+            return Err(fault(format!("have masks of {:?} and {:?}; expected one size", sizes[0], sizes[1])));
+        }
+        std::mem::swap(&mut own.mask, &mut mask);
+        let stack = Self::stack(&self.keys).and_then(|stack| check_nested(&stack, &self.options).map(|()| stack));
+        let stack = match stack {
+            Ok(stack) => stack,
+            Err(e) => {
+                self.keys[key].mask = mask;
+                return Err(e);
+            }
+        };
+        // Levels that have the key as a border, and those whose sets have won or lost a texel.
+        let mut wanted = [false; 256];
+        wanted[key..(key + 2).min(256)].fill(true);
+        for (was, is) in self.stack.counts.iter().zip(&stack.counts).filter(|(was, is)| was != is) {
+            wanted[usize::from(*was.min(is))..=usize::from(*was.max(is))].fill(true);
+        }
+        if self.options.blend == Blend::Smooth {
+            // There the next border but one counts, too.
+            let near = |i: usize| (i.saturating_sub(1)..=(i + 1).min(255)).any(|j| wanted[j]);
+            wanted = std::array::from_fn(near);
+        }
+        find_codes(&stack, &self.bands, &self.options, &wanted, &mut self.map.codes);
+        self.stack = stack;
+        Ok(())
+    }
+}
+
 /// The same for keys that are read row by row.
 pub(super) fn bake_sources(angles_rad: &[f32], sources: &mut [Source], options: &BakeOptions) -> Result<Baked> {
     check(angles_rad, sources)?;
     options.profile.check()?;
     let bands = bands(angles_rad, options)?;
     let mut stack = Stack::read(sources[0].size, angles_rad, sources)?;
-    if let (Some(c), false) = (stack.contradictions.first(), options.repair) {
-        let texels: usize = stack.contradictions.iter().map(|c| c.texels).sum();
-        let [from, to] = [c.dark_rad, c.lit_rad].map(degrees);
-        return Err(fault(format!(
-            "light up again: {texels} texels, between {from} and {to} degrees {} of them, first at {}, {}; expected lit \
-             parts that only shrink",
-            c.texels, c.first[0], c.first[1]
-        )));
-    }
-    let codes = codes(&stack, &bands, options);
+    check_nested(&stack, options)?;
+    let mut codes = vec![0u16; stack.counts.len()];
+    find_codes(&stack, &bands, options, &[true; 256], &mut codes);
     Ok(Baked {
         map: ThresholdMap {
             width: stack.width as u32,
@@ -135,6 +215,18 @@ pub(super) fn bake_sources(angles_rad: &[f32], sources: &mut [Source], options: 
 
 fn fault(message: impl Into<String>) -> Error {
     Error::Argument { what: "keys of a threshold map".into(), message: message.into() }
+}
+
+/// Refuses keys that contradict each other, unless they are to be repaired.
+fn check_nested(stack: &Stack, options: &BakeOptions) -> Result<()> {
+    let (Some(c), false) = (stack.contradictions.first(), options.repair) else { return Ok(()) };
+    let texels: usize = stack.contradictions.iter().map(|c| c.texels).sum();
+    let [from, to] = [c.dark_rad, c.lit_rad].map(degrees);
+    Err(fault(format!(
+        "light up again: {texels} texels, between {from} and {to} degrees {} of them, first at {}, {}; expected lit parts \
+         that only shrink",
+        c.texels, c.first[0], c.first[1]
+    )))
 }
 
 /// For messages.
@@ -203,15 +295,19 @@ fn bands(angles_rad: &[f32], options: &BakeOptions) -> Result<Vec<Band>> {
     angles_rad.windows(2).map(band).collect()
 }
 
-fn codes(stack: &Stack, bands: &[Band], options: &BakeOptions) -> Vec<u16> {
+/// Finds the codes of the texels of all wanted levels.
+fn find_codes(stack: &Stack, bands: &[Band], options: &BakeOptions, wanted: &[bool; 256], codes: &mut [u16]) {
     let keys = bands.len() + 1;
-    let mut codes = vec![0u16; stack.counts.len()];
     let seen = seen(&stack.counts);
     let (lowest, highest) = (seen.iter().position(|s| *s).unwrap_or(0), seen.iter().rposition(|s| *s).unwrap_or(0));
     let deepest = Deepest::of(stack, keys, lowest, highest);
-    for_each_row(&stack.counts, stack.width, keys + 1, &mut codes, |y, row, sweep, scratch, out| {
+    let smooth = options.blend == Blend::Smooth;
+    for_each_row(&stack.counts, stack.width, keys + 1, codes, |y, row, sweep, scratch, out| {
         for group in scratch.find_runs(row) {
             let level = usize::from(scratch.runs(&group)[0].level);
+            if !wanted[level] {
+                continue;
+            }
             if level == 0 || level == keys {
                 let code = if level == 0 { 0 } else { options.depth.max() };
                 scratch.runs(&group).iter().for_each(|run| out[run.start..run.end].fill(code));
@@ -221,6 +317,18 @@ fn codes(stack: &Stack, bands: &[Band], options: &BakeOptions) -> Vec<u16> {
                 scratch.measure(&group, y, &sweep.below[level]);
             }
             std::mem::swap(&mut scratch.found, &mut scratch.before);
+            // The keys before and after: those sets are there where a level lies beyond them.
+            let (before, after) = (smooth && level > lowest + 1, smooth && level + 1 < highest);
+            if before {
+                scratch.measure(&group, y, &sweep.below[level - 1]);
+                let Scratch { found, next_but_one: [before, _], .. } = scratch;
+                std::mem::swap(found, before);
+            }
+            if after {
+                scratch.measure(&group, y, &sweep.above[level + 1]);
+                let Scratch { found, next_but_one: [_, after], .. } = scratch;
+                std::mem::swap(found, after);
+            }
             if level < highest {
                 scratch.measure(&group, y, &sweep.above[level]);
             }
@@ -230,7 +338,8 @@ fn codes(stack: &Stack, bands: &[Band], options: &BakeOptions) -> Vec<u16> {
             let shift = |x: usize| if dithers { bayer(x, y) } else { 0.0 };
             for run in scratch.runs(&group) {
                 let texels = run.start..run.end;
-                let plain = level > lowest && level < highest && inner.is_none() && outer.is_none() && !dithers;
+                let both = level > lowest && level < highest;
+                let plain = both && inner.is_none() && outer.is_none() && !dithers && !smooth;
                 if plain {
                     let (inside, outside) =
                         (&scratch.before.squared[texels.clone()], &scratch.found.squared[texels.clone()]);
@@ -241,6 +350,18 @@ fn codes(stack: &Stack, bands: &[Band], options: &BakeOptions) -> Vec<u16> {
                 let outside = |x: usize| to_border(&scratch.found, x, y, &sweep.above[level], outer);
                 for x in texels {
                     let share = match (level > lowest, level < highest) {
+                        (true, true) if smooth => {
+                            let [far, beyond] = &scratch.next_but_one;
+                            let far = before.then(|| {
+                                let border = stack.borders[level - 2].as_ref();
+                                (bands[level - 2].from, to_border(far, x, y, &sweep.below[level - 1], border))
+                            });
+                            let beyond = after.then(|| {
+                                let border = stack.borders[level + 1].as_ref();
+                                (bands[level].to, -to_border(beyond, x, y, &sweep.above[level + 1], border))
+                            });
+                            zero_of_cubic(far, (band.from, inside(x)), (band.to, -outside(x)), beyond)
+                        }
                         (true, true) => inside(x) / (inside(x) + outside(x)),
                         (true, false) => inside(x) / deepest.inside,
                         (false, true) => 1.0 - outside(x) / deepest.outside,
@@ -251,7 +372,36 @@ fn codes(stack: &Stack, bands: &[Band], options: &BakeOptions) -> Vec<u16> {
             }
         }
     });
-    codes
+}
+
+/// Where a monotone cubic through distances of growing thresholds is 0, as a share of the way between the middle two.
+/// Without a key on one side, it leaves the last one as a straight line.
+fn zero_of_cubic(before: Option<(f64, f64)>, a: (f64, f64), b: (f64, f64), after: Option<(f64, f64)>) -> f64 {
+    let secant = |a: (f64, f64), b: (f64, f64)| (b.1 - a.1) / (b.0 - a.0).max(1e-12);
+    let middle = secant(a, b);
+    // Both fall, so that their weighted harmonic mean keeps the cubic from turning.
+    let slope = |left: f64, right: f64, left_width: f64, right_width: f64| {
+        let (v, w) = (2.0 * right_width + left_width, right_width + 2.0 * left_width);
+        if left * right > 0.0 {
+            (v + w) / (v / left + w / right)
+        } else {
+            0.0
+        }
+    };
+    let width = b.0 - a.0;
+    let from = before.map_or(middle, |p| slope(secant(p, a), middle, a.0 - p.0, width)) * width;
+    let to = after.map_or(middle, |n| slope(middle, secant(b, n), width, n.0 - b.0)) * width;
+    let at = |u: f64| {
+        let (s, v) = (u * u, 1.0 - u);
+        a.1 * (1.0 + 2.0 * u) * v * v + from * u * v * v + b.1 * s * (3.0 - 2.0 * u) - to * s * v
+    };
+    // It falls all the way: halve until nothing is left of a code.
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..32 {
+        let u = 0.5 * (low + high);
+        if at(u) > 0.0 { low = u } else { high = u }
+    }
+    0.5 * (low + high)
 }
 
 /// Distance from a texel to the border beyond it, which runs half a texel before the nearest centre or where an
@@ -532,6 +682,53 @@ mod tests {
         let options = BakeOptions { depth: Depth::Eight, ..BakeOptions::default() };
         let fault = bake(&close, &options).unwrap_err().to_string();
         assert!(fault.contains("too close for 8 bits") && bake(&close, &BakeOptions::default()).is_ok(), "{fault}");
+    }
+
+    #[test]
+    fn a_smooth_blend_keeps_its_speed_at_keys() {
+        // A border that hurries between two keys: 100, 300 and 100 texels.
+        let at = [40u32, 140, 440, 540];
+        let keys: Vec<Key> = (0..4)
+            .map(|k| Key { angle_rad: 0.5 + k as f32 * 0.6, mask: Mask::from_fn(600, 3, |x, _| x >= at[k as usize]) })
+            .collect();
+        let speed_ratio = |blend: Blend| {
+            let map = map(&keys, &BakeOptions { blend, ..BakeOptions::default() });
+            for key in &keys {
+                assert!(map.mask(key.angle_rad) == key.mask, "{blend:?}");
+            }
+            // Codes that a texel takes, on both sides of the second key.
+            let step = |x: usize| f64::from(map.codes[x + 1]) - f64::from(map.codes[x]);
+            step(138) / step(140)
+        };
+        let [linear, smooth] = [Blend::Linear, Blend::Smooth].map(speed_ratio);
+        assert!((linear - 3.0).abs() < 0.1 && (smooth - 1.0).abs() < 0.1, "{linear} and {smooth}");
+    }
+
+    #[test]
+    fn an_edited_key_gives_the_map_of_a_whole_bake() {
+        let edits = [(3usize, 1.5f64), (3, -2.0), (1, 2.5), (5, -3.0), (0, 1.0)];
+        for options in [
+            BakeOptions::default(),
+            BakeOptions { blend: Blend::Smooth, ..BakeOptions::default() },
+            BakeOptions { repair: true, depth: Depth::Eight, ..BakeOptions::default() },
+        ] {
+            let mut keys = keys();
+            let mut session = Session::new(keys.clone(), options.clone()).expect("bakes");
+            for (key, shift) in edits {
+                let edge = |y: u32| key as f64 * 8.0 - 4.0 + shift + 3.0 * (f64::from(y) * 0.4).sin();
+                keys[key].mask = Mask::from_fn(40, 24, |x, y| f64::from(x) >= edge(y) && (x, y) != (38, 3));
+                let whole = bake(&keys, &options).map(|b| b.map);
+                let edited = session.replace(key, keys[key].mask.clone());
+                match whole {
+                    Ok(whole) => assert!(session.map() == &whole, "key {key}, {options:?}"),
+                    Err(_) => {
+                        assert!(edited.is_err());
+                        keys[key] = session.keys[key].clone();
+                    }
+                }
+            }
+            assert!(session.replace(9, Mask::default()).is_err() && session.replace(1, Mask::default()).is_err());
+        }
     }
 
     /// Two circles: the border between them is a circle, too.
