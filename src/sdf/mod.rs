@@ -4,6 +4,7 @@
 //! at which it turns dark, by the exact distances to the borders of the two keys round it, so that the border of light
 //! and shade glides from one drawing to the next.
 
+mod band;
 mod border;
 mod check;
 mod columns;
@@ -14,6 +15,7 @@ mod layout;
 mod mask;
 mod profile;
 mod project;
+mod session;
 mod shapes;
 mod source;
 mod stack;
@@ -29,7 +31,8 @@ pub use layout::{ChannelSource, Layout, Sides};
 pub use mask::{LIT, Mask};
 pub use profile::Profile;
 pub use project::{BakedSides, CapFront, DrawnKey, Project, ProjectKey, Size};
+pub use session::Session;
 pub use shapes::{Drawing, Ellipse, Shape, ShapeKey, ShapeKind, Tween};
 pub use source::{MaskChannel, MaskFile};
 pub use stack::{Contradiction, MAX_KEYS};
-pub use threshold::{BakeOptions, Baked, Blend, Depth, Key, Session, ThresholdMap, bake};
+pub use threshold::{BakeOptions, Baked, Blend, Depth, Key, ThresholdMap, bake};

@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 use std::sync::atomic::{AtomicU32, Ordering};
 
+use super::band::{Band, bands, bayer, distance, zero_of_cubic};
 use super::border::{Border, HALF};
 use super::columns::Nearest;
 use super::distance::{Found, Scratch, for_each_row};
@@ -118,79 +119,6 @@ pub fn bake(keys: &[Key], options: &BakeOptions) -> Result<Baked> {
     bake_sources(&angles, &mut keys.iter().map(|k| Source::mask(&k.mask)).collect::<Vec<_>>(), options)
 }
 
-/// Keys in memory and their map, for an editor: where one key changes, only what lies between it and its neighbours is
-/// found anew.
-pub struct Session {
-    keys: Vec<Key>,
-    options: BakeOptions,
-    stack: Stack,
-    bands: Vec<Band>,
-    map: ThresholdMap,
-}
-
-impl Session {
-    /// Bakes keys and keeps them.
-    ///
-    /// # Errors
-    /// Those of [`bake`].
-    pub fn new(keys: Vec<Key>, options: BakeOptions) -> Result<Self> {
-        let map = bake(&keys, &options)?.map;
-        let angles: Vec<f32> = keys.iter().map(|k| k.angle_rad).collect();
-        let stack = Self::stack(&keys)?;
-        Ok(Self { bands: bands(&angles, &options)?, stack, map, keys, options })
-    }
-
-    fn stack(keys: &[Key]) -> Result<Stack> {
-        let angles: Vec<f32> = keys.iter().map(|k| k.angle_rad).collect();
-        let mut sources: Vec<Source> = keys.iter().map(|k| Source::mask(&k.mask)).collect();
-        Stack::read(sources[0].size, &angles, &mut sources)
-    }
-
-    /// The map of the present keys.
-    #[must_use]
-    pub fn map(&self) -> &ThresholdMap {
-        &self.map
-    }
-
-    /// Takes another mask for a key; the map is that of [`bake`]. After an error all is as it was before.
-    ///
-    /// # Errors
-    /// [`Error::Argument`] for a key that does not exist, a mask of another size, and, without
-    /// [`repair`](BakeOptions::repair), texels that light up again.
-    pub fn replace(&mut self, key: usize, mut mask: Mask) -> Result<()> {
-        let Some(own) = self.keys.get_mut(key) else {
-            return Err(fault(format!("are {}; expected one of them, not number {key}", self.keys.len())));
-        };
-        let sizes = [&own.mask, &mask].map(|m| (m.width, m.height, m.coverage.len()));
-        if sizes[0] != sizes[1] {
-            return Err(fault(format!("have masks of {:?} and {:?}; expected one size", sizes[0], sizes[1])));
-        }
-        std::mem::swap(&mut own.mask, &mut mask);
-        let stack = Self::stack(&self.keys).and_then(|stack| check_nested(&stack, &self.options).map(|()| stack));
-        let stack = match stack {
-            Ok(stack) => stack,
-            Err(e) => {
-                self.keys[key].mask = mask;
-                return Err(e);
-            }
-        };
-        // Levels that have the key as a border, and those whose sets have won or lost a texel.
-        let mut wanted = [false; 256];
-        wanted[key..(key + 2).min(256)].fill(true);
-        for (was, is) in self.stack.counts.iter().zip(&stack.counts).filter(|(was, is)| was != is) {
-            wanted[usize::from(*was.min(is))..=usize::from(*was.max(is))].fill(true);
-        }
-        if self.options.blend == Blend::Smooth {
-            // There the next border but one counts, too.
-            let near = |i: usize| (i.saturating_sub(1)..=(i + 1).min(255)).any(|j| wanted[j]);
-            wanted = std::array::from_fn(near);
-        }
-        find_codes(&stack, &self.bands, &self.options, &wanted, &mut self.map.codes);
-        self.stack = stack;
-        Ok(())
-    }
-}
-
 /// The same for keys that are read row by row.
 pub(super) fn bake_sources(angles_rad: &[f32], sources: &mut [Source], options: &BakeOptions) -> Result<Baked> {
     check(angles_rad, sources)?;
@@ -213,12 +141,12 @@ pub(super) fn bake_sources(angles_rad: &[f32], sources: &mut [Source], options: 
     })
 }
 
-fn fault(message: impl Into<String>) -> Error {
+pub(super) fn fault(message: impl Into<String>) -> Error {
     Error::Argument { what: "keys of a threshold map".into(), message: message.into() }
 }
 
 /// Refuses keys that contradict each other, unless they are to be repaired.
-fn check_nested(stack: &Stack, options: &BakeOptions) -> Result<()> {
+pub(super) fn check_nested(stack: &Stack, options: &BakeOptions) -> Result<()> {
     let (Some(c), false) = (stack.contradictions.first(), options.repair) else { return Ok(()) };
     let texels: usize = stack.contradictions.iter().map(|c| c.texels).sum();
     let [from, to] = [c.dark_rad, c.lit_rad].map(degrees);
@@ -230,7 +158,7 @@ fn check_nested(stack: &Stack, options: &BakeOptions) -> Result<()> {
 }
 
 /// For messages.
-fn degrees(angle_rad: f32) -> f32 {
+pub(super) fn degrees(angle_rad: f32) -> f32 {
     (angle_rad.to_degrees() * 1000.0).round() / 1000.0
 }
 
@@ -258,45 +186,14 @@ fn check(angles_rad: &[f32], sources: &[Source]) -> Result<()> {
     Ok(())
 }
 
-/// What lies between two keys.
-#[derive(Clone, Copy, Debug)]
-struct Band {
-    /// Thresholds of the two keys, in codes.
-    from: f64,
-    to: f64,
-    /// Least and greatest code of a texel that is lit at the first and dark at the second.
-    low: u16,
-    high: u16,
-}
-
-fn bands(angles_rad: &[f32], options: &BakeOptions) -> Result<Vec<Band>> {
-    let max = options.depth.max();
-    let threshold = |angle: f32| options.profile.threshold(f64::from(angle)) * f64::from(max);
-    let band = |pair: &[f32]| {
-        let [from, to] = [threshold(pair[0]), threshold(pair[1])];
-        // The outermost codes are never and always lit, and no texel ties with a key.
-        let (low, high) = ((from + 0.25).ceil().max(1.0), (to - 0.25).floor().min(f64::from(max - 1)));
-        // Beyond the angles that the profile tells apart; those at its ends are rounded on their way to radians.
-        let rounded = 0.05;
-        if to <= rounded || from >= f64::from(max) - rounded {
-            let code = if to <= rounded { 1 } else { max - 1 };
-            return Ok(Band { from, to, low: code, high: code });
-        }
-        if low > high {
-            let [a, b] = [pair[0], pair[1]].map(degrees);
-            return Err(fault(format!(
-                "at {a} and {b} degrees are too close for {} bits: no code lies between them; expected a wider step{}",
-                if max == 255 { 8 } else { 16 },
-                if max == 255 { " or 16 bits" } else { "" }
-            )));
-        }
-        Ok(Band { from, to, low: low as u16, high: high as u16 })
-    };
-    angles_rad.windows(2).map(band).collect()
-}
-
 /// Finds the codes of the texels of all wanted levels.
-fn find_codes(stack: &Stack, bands: &[Band], options: &BakeOptions, wanted: &[bool; 256], codes: &mut [u16]) {
+pub(super) fn find_codes(
+    stack: &Stack,
+    bands: &[Band],
+    options: &BakeOptions,
+    wanted: &[bool; 256],
+    codes: &mut [u16],
+) {
     let keys = bands.len() + 1;
     let seen = seen(&stack.counts);
     let (lowest, highest) = (seen.iter().position(|s| *s).unwrap_or(0), seen.iter().rposition(|s| *s).unwrap_or(0));
@@ -374,36 +271,6 @@ fn find_codes(stack: &Stack, bands: &[Band], options: &BakeOptions, wanted: &[bo
     });
 }
 
-/// Where a monotone cubic through distances of growing thresholds is 0, as a share of the way between the middle two.
-/// Without a key on one side, it leaves the last one as a straight line.
-fn zero_of_cubic(before: Option<(f64, f64)>, a: (f64, f64), b: (f64, f64), after: Option<(f64, f64)>) -> f64 {
-    let secant = |a: (f64, f64), b: (f64, f64)| (b.1 - a.1) / (b.0 - a.0).max(1e-12);
-    let middle = secant(a, b);
-    // Both fall, so that their weighted harmonic mean keeps the cubic from turning.
-    let slope = |left: f64, right: f64, left_width: f64, right_width: f64| {
-        let (v, w) = (2.0 * right_width + left_width, right_width + 2.0 * left_width);
-        if left * right > 0.0 {
-            (v + w) / (v / left + w / right)
-        } else {
-            0.0
-        }
-    };
-    let width = b.0 - a.0;
-    let from = before.map_or(middle, |p| slope(secant(p, a), middle, a.0 - p.0, width)) * width;
-    let to = after.map_or(middle, |n| slope(middle, secant(b, n), width, n.0 - b.0)) * width;
-    let at = |u: f64| {
-        let (s, v) = (u * u, 1.0 - u);
-        a.1 * (1.0 + 2.0 * u) * v * v + from * u * v * v + b.1 * s * (3.0 - 2.0 * u) - to * s * v
-    };
-    // It falls all the way: halve until nothing is left of a code.
-    let (mut low, mut high) = (0.0, 1.0);
-    for _ in 0..32 {
-        let u = 0.5 * (low + high);
-        if at(u) > 0.0 { low = u } else { high = u }
-    }
-    0.5 * (low + high)
-}
-
 /// Distance from a texel to the border beyond it, which runs half a texel before the nearest centre or where an
 /// antialiased border says.
 fn to_border(found: &Found, x: usize, y: i16, set: &Nearest, border: Option<&Border>) -> f64 {
@@ -416,11 +283,6 @@ fn seen(counts: &[u8]) -> [bool; 256] {
     let mut seen = [false; 256];
     counts.iter().for_each(|c| seen[usize::from(*c)] = true);
     seen
-}
-
-/// Distance from a texel to a border.
-fn distance(squared: u32) -> f64 {
-    f64::from(squared).sqrt() - f64::from(HALF)
 }
 
 /// Distances of what is farthest from the only border that its band has, and half a texel more.
@@ -453,57 +315,6 @@ impl Deepest {
         let [inside, outside] = greatest.map(|g| distance(g.into_inner()) + f64::from(HALF));
         Self { inside, outside }
     }
-}
-
-impl Band {
-    /// Code at a share of the way between the keys.
-    fn code(&self, share: f64, shift: f64) -> u16 {
-        let exact = self.from + (self.to - self.from) * share;
-        ((exact + 0.5 + shift).floor()).clamp(f64::from(self.low), f64::from(self.high)) as u16
-    }
-
-    /// Codes of texels that have both borders: in single precision, and anew in double where that could round wrongly.
-    fn between(&self, inside: &[u32], outside: &[u32], out: &mut [u16]) {
-        const LANES: usize = 8;
-        /// Adding it rounds to whole numbers.
-        const ROUND: f32 = 8_388_608.0;
-        /// Three roundings of 24 bits on a value of 16.
-        const UNSURE: f32 = 0.5 - 0.02;
-        let exact = |i: usize| {
-            let (inside, outside) = (distance(inside[i]), distance(outside[i]));
-            self.code(inside / (inside + outside), 0.0)
-        };
-        let (from, span) = (self.from as f32, (self.to - self.from) as f32);
-        let (low, high) = (f32::from(self.low), f32::from(self.high));
-        let blocks = inside.chunks(LANES).zip(outside.chunks(LANES)).enumerate();
-        for (block, (inside, outside)) in blocks {
-            let at = block * LANES;
-            let mut unsure = inside.len() < LANES;
-            if let (Some(inside), Some(outside)) = (inside.first_chunk::<LANES>(), outside.first_chunk::<LANES>()) {
-                let mut off = [0f32; LANES];
-                for i in 0..LANES {
-                    // Squares of 31 bits, which convert faster with a sign.
-                    let a = (inside[i] as i32 as f32).sqrt() - 0.5;
-                    let b = (outside[i] as i32 as f32).sqrt() - 0.5;
-                    let value = (from + span * (a / (a + b))).max(low).min(high);
-                    let rounded = value + ROUND;
-                    off[i] = (value - (rounded - ROUND)).abs();
-                    out[at + i] = rounded.to_bits() as u16;
-                }
-                unsure = off.iter().any(|o| *o > UNSURE);
-            }
-            if unsure {
-                (at..at + inside.len()).for_each(|i| out[i] = exact(i));
-            }
-        }
-    }
-}
-
-/// Ordered dither of 8 x 8 texels (Bayer 1973), -0.5..0.5 codes.
-fn bayer(x: usize, y: i16) -> f64 {
-    let (x, y) = (x & 7, y as usize & 7);
-    let bits = (0..3).map(|bit| (((x ^ y) >> bit & 1) << (5 - 2 * bit)) | ((y >> bit & 1) << (4 - 2 * bit)));
-    (bits.sum::<usize>() as f64 + 0.5) / 64.0 - 0.5
 }
 
 impl ThresholdMap {
@@ -702,33 +513,6 @@ mod tests {
         };
         let [linear, smooth] = [Blend::Linear, Blend::Smooth].map(speed_ratio);
         assert!((linear - 3.0).abs() < 0.1 && (smooth - 1.0).abs() < 0.1, "{linear} and {smooth}");
-    }
-
-    #[test]
-    fn an_edited_key_gives_the_map_of_a_whole_bake() {
-        let edits = [(3usize, 1.5f64), (3, -2.0), (1, 2.5), (5, -3.0), (0, 1.0)];
-        for options in [
-            BakeOptions::default(),
-            BakeOptions { blend: Blend::Smooth, ..BakeOptions::default() },
-            BakeOptions { repair: true, depth: Depth::Eight, ..BakeOptions::default() },
-        ] {
-            let mut keys = keys();
-            let mut session = Session::new(keys.clone(), options.clone()).expect("bakes");
-            for (key, shift) in edits {
-                let edge = |y: u32| key as f64 * 8.0 - 4.0 + shift + 3.0 * (f64::from(y) * 0.4).sin();
-                keys[key].mask = Mask::from_fn(40, 24, |x, y| f64::from(x) >= edge(y) && (x, y) != (38, 3));
-                let whole = bake(&keys, &options).map(|b| b.map);
-                let edited = session.replace(key, keys[key].mask.clone());
-                match whole {
-                    Ok(whole) => assert!(session.map() == &whole, "key {key}, {options:?}"),
-                    Err(_) => {
-                        assert!(edited.is_err());
-                        keys[key] = session.keys[key].clone();
-                    }
-                }
-            }
-            assert!(session.replace(9, Mask::default()).is_err() && session.replace(1, Mask::default()).is_err());
-        }
     }
 
     /// Two circles: the border between them is a circle, too.
