@@ -13,27 +13,57 @@ pub(super) struct Border {
 pub(super) const HALF: f32 = 0.5;
 
 impl Border {
-    /// Distance from a texel to the border before another one, which is the nearest on its other side: the least that this
-    /// one and those round it say, each of which is an upper bound.
-    pub(super) fn between(&self, from: [usize; 2], [x, y]: [usize; 2]) -> f64 {
-        let distance = |x: usize, y: usize| (from[0] as f64 - x as f64).hypot(from[1] as f64 - y as f64);
-        let own = self.row(y, x, x).first().map(|t| t.1);
-        let Some(own) = own else { return distance(x, y) - f64::from(HALF) };
-        let around = (y.saturating_sub(1)..=y + 1).flat_map(|row| {
-            self.row(row, x.saturating_sub(1), x + 1).iter().map(move |(column, d)| (*column, row, *d))
-        });
-        let same_side = around.filter(|(.., outside)| (*outside > 0.0) == (own > 0.0));
-        let bounds = same_side.map(|(x, y, outside)| distance(usize::from(x), y) - f64::from(outside.abs()));
-        // Where two borders meet in a texel, they may seem to cross.
-        bounds.fold(f64::INFINITY, f64::min).max(0.02)
-    }
-
     /// Texels of a row in a range of columns.
     fn row(&self, y: usize, left: usize, right: usize) -> &[(u16, f32)] {
         let (Some(from), Some(to)) = (self.rows.get(y), self.rows.get(y + 1)) else { return &[] };
         let row = &self.texels[*from as usize..*to as usize];
         let row = &row[row.partition_point(|t| usize::from(t.0) < left)..];
         &row[..row.partition_point(|t| usize::from(t.0) <= right)]
+    }
+}
+
+/// What a border says round one texel; kept, as the next texel of a row mostly has the same nearest.
+pub(super) struct Around<'a> {
+    border: &'a Border,
+    site: [usize; 2],
+    /// Columns, rows, and what the border lies before them, of texels on the site's side.
+    bounds: [[f64; 3]; 9],
+    count: usize,
+}
+
+impl<'a> Around<'a> {
+    pub(super) fn new(border: &'a Border) -> Self {
+        Self { border, site: [usize::MAX; 2], bounds: [[0.0; 3]; 9], count: 0 }
+    }
+
+    /// Distance from a texel to the border before another one, which is the nearest on its other side: the least that this
+    /// one and those round it say, each of which is an upper bound.
+    pub(super) fn distance(&mut self, from: [usize; 2], site: [usize; 2]) -> f64 {
+        if self.site != site {
+            self.site = site;
+            self.collect();
+        }
+        let [x, y] = from.map(|c| c as f64);
+        let bounds = self.bounds[..self.count].iter();
+        let bounds = bounds.map(|[u, v, before]| ((x - u) * (x - u) + (y - v) * (y - v)).sqrt() - before);
+        // Where two borders meet in a texel, they may seem to cross.
+        bounds.fold(f64::INFINITY, f64::min).max(0.02)
+    }
+
+    fn collect(&mut self) {
+        let [x, y] = self.site;
+        self.bounds[0] = [x as f64, y as f64, f64::from(HALF)];
+        self.count = 1;
+        let Some(own) = self.border.row(y, x, x).first().map(|t| t.1) else { return };
+        self.count = 0;
+        for row in y.saturating_sub(1)..=y + 1 {
+            for (column, outside) in self.border.row(row, x.saturating_sub(1), x + 1) {
+                if (*outside > 0.0) == (own > 0.0) {
+                    self.bounds[self.count] = [f64::from(*column), row as f64, f64::from(outside.abs())];
+                    self.count += 1;
+                }
+            }
+        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! What will look wrong in a finished map, though it is well-formed.
 
-use super::{BakedSides, Depth, Mask, Project, ThresholdMap};
+use super::{BakedSides, Depth, Mask, Project, ProjectKey, ThresholdMap};
 use crate::Result;
 
 /// A remark on keys or a map.
@@ -87,20 +87,19 @@ fn on_map(map: &ThresholdMap) -> Vec<String> {
 /// Neighbouring keys with too few codes between them.
 fn coarse_steps(project: &Project) -> impl Iterator<Item = String> {
     let max = f64::from(project.depth().max());
-    let mut angles: Vec<f32> = project.keys.iter().map(|k| k.angle().abs()).collect();
+    let mut angles: Vec<f32> = project.keys.iter().map(ProjectKey::angle).collect();
     angles.sort_by(f32::total_cmp);
-    angles.dedup();
-    let codes = |angle: f32| project.profile.threshold(f64::from(angle).to_radians()).clamp(0.0, 1.0) * max;
+    let codes = |angle: f32| project.profile.threshold(f64::from(angle.abs()).to_radians()).clamp(0.0, 1.0) * max;
     let found: Vec<String> = angles
         .windows(2)
         .filter_map(|pair| {
-            let between = codes(pair[1]) - codes(pair[0]);
+            let between = (codes(pair[1]) - codes(pair[0])).abs();
             let remedy = if project.depth() == Depth::Eight {
                 "bits = 16, or dither = true"
             } else {
                 "keys farther apart"
             };
-            (between > 0.0 && between < FEWEST_CODES).then(|| {
+            (between > 0.0 && between < FEWEST_CODES && (pair[0] >= 0.0 || pair[1] <= 0.0)).then(|| {
                 format!(
                     "only {between:.1} codes lie between {} and {} degrees: the border moves in steps; {remedy}",
                     pair[0], pair[1]

@@ -167,6 +167,12 @@ pub struct BakedSides {
 }
 
 impl BakedSides {
+    /// Texels of contradicting keys that were repaired.
+    #[must_use]
+    pub fn repaired(&self) -> usize {
+        self.left.wrong.len() + self.right.as_ref().map_or(0, |r| r.wrong.len())
+    }
+
     /// The maps.
     #[must_use]
     pub fn into_sides(self) -> Sides {
@@ -259,11 +265,7 @@ impl Project {
         if inside {
             return Ok(self.path.parent().unwrap_or(Path::new("")).join(file));
         }
-        Err(Error::Input {
-            path: self.path.display().to_string(),
-            pointer: "project".into(),
-            message: format!("names the file {}; expected one beside the project or below", file.display()),
-        })
+        Err(self.fault(format!("names the file {}; expected one beside the project or below", file.display())))
     }
 
     /// Whether keys stand at negative angles.
@@ -354,14 +356,10 @@ impl Project {
     /// drawn nor mirrored.
     pub fn bake(&self, repair: bool) -> Result<BakedSides> {
         if !self.has_right() && !self.mirror && self.layout.has_right() {
-            return Err(Error::Input {
-                path: self.path.display().to_string(),
-                pointer: "project".into(),
-                message:
-                    "the layout has a channel for light from the right, which no key is for; expected mirror = true \
-                          (--mirror), keys at negative angles, or another layout"
-                        .into(),
-            });
+            return Err(self.fault(
+                "the layout has a channel for light from the right, which no key is for; expected mirror = true \
+                 (--mirror), keys at negative angles, or another layout",
+            ));
         }
         let size = self.size()?;
         let drawing = self.drawing()?;
@@ -377,7 +375,12 @@ impl Project {
             let angles: Vec<f32> = keys.iter().map(|k| k.0.to_radians()).collect();
             let mut sources: Vec<Source> =
                 keys.iter().map(|k| self.source(k.1, &drawing, size)).collect::<Result<_>>()?;
-            bake_sources(&angles, &mut sources, &options)
+            bake_sources(&angles, &mut sources, &options).map_err(|e| match e {
+                Error::Argument { message, .. } => {
+                    self.fault(format!("keys for light from the {} {message}", if right { "right" } else { "left" }))
+                }
+                other => other,
+            })
         };
         Ok(BakedSides { left: side(false)?, right: if self.has_right() { Some(side(true)?) } else { None } })
     }

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use super::band::{Band, bands, bayer, distance, zero_of_cubic};
-use super::border::{Border, HALF};
+use super::border::{Around, HALF};
 use super::columns::Nearest;
 use super::distance::{Found, Scratch, for_each_row};
 use super::source::Source;
@@ -152,7 +152,7 @@ pub(super) fn check_nested(stack: &Stack, options: &BakeOptions) -> Result<()> {
     let [from, to] = [c.dark_rad, c.lit_rad].map(degrees);
     Err(fault(format!(
         "light up again: {texels} texels, between {from} and {to} degrees {} of them, first at {}, {}; expected lit parts \
-         that only shrink",
+         that only shrink, or a repair (--repair)",
         c.texels, c.first[0], c.first[1]
     )))
 }
@@ -230,36 +230,42 @@ pub(super) fn find_codes(
                 scratch.measure(&group, y, &sweep.above[level]);
             }
             let band = &bands[level - 1];
-            let (inner, outer) = (stack.borders[level - 1].as_ref(), stack.borders[level].as_ref());
+            let is_hard = stack.borders[level - 1].is_none() && stack.borders[level].is_none();
             let dithers = options.dither && options.depth == Depth::Eight;
             let shift = |x: usize| if dithers { bayer(x, y) } else { 0.0 };
             for run in scratch.runs(&group) {
                 let texels = run.start..run.end;
                 let both = level > lowest && level < highest;
-                let plain = both && inner.is_none() && outer.is_none() && !dithers && !smooth;
+                let plain = both && is_hard && !dithers && !smooth;
                 if plain {
                     let (inside, outside) =
                         (&scratch.before.squared[texels.clone()], &scratch.found.squared[texels.clone()]);
                     band.between(inside, outside, &mut out[texels]);
                     continue;
                 }
-                let inside = |x: usize| to_border(&scratch.before, x, y, &sweep.below[level], inner);
-                let outside = |x: usize| to_border(&scratch.found, x, y, &sweep.above[level], outer);
+                let border = |key: usize| stack.borders.get(key).and_then(|b| b.as_ref()).map(Around::new);
+                let (mut inner, mut outer) = (border(level - 1), border(level));
+                let (mut far, mut beyond) = (border(level.wrapping_sub(2)), border(level + 1));
+                let mut inside = |x: usize| to_border(&scratch.before, x, y, &sweep.below[level], &mut inner);
+                let mut outside = |x: usize| to_border(&scratch.found, x, y, &sweep.above[level], &mut outer);
                 for x in texels {
                     let share = match (level > lowest, level < highest) {
                         (true, true) if smooth => {
-                            let [far, beyond] = &scratch.next_but_one;
+                            let [first, last] = &scratch.next_but_one;
                             let far = before.then(|| {
-                                let border = stack.borders[level - 2].as_ref();
-                                (bands[level - 2].from, to_border(far, x, y, &sweep.below[level - 1], border))
+                                let inside = to_border(first, x, y, &sweep.below[level - 1], &mut far);
+                                (bands[level - 2].from, inside)
                             });
                             let beyond = after.then(|| {
-                                let border = stack.borders[level + 1].as_ref();
-                                (bands[level].to, -to_border(beyond, x, y, &sweep.above[level + 1], border))
+                                let outside = to_border(last, x, y, &sweep.above[level + 1], &mut beyond);
+                                (bands[level].to, -outside)
                             });
                             zero_of_cubic(far, (band.from, inside(x)), (band.to, -outside(x)), beyond)
                         }
-                        (true, true) => inside(x) / (inside(x) + outside(x)),
+                        (true, true) => {
+                            let inside = inside(x);
+                            inside / (inside + outside(x))
+                        }
                         (true, false) => inside(x) / deepest.inside,
                         (false, true) => 1.0 - outside(x) / deepest.outside,
                         (false, false) => 0.5,
@@ -273,10 +279,10 @@ pub(super) fn find_codes(
 
 /// Distance from a texel to the border beyond it, which runs half a texel before the nearest centre or where an
 /// antialiased border says.
-fn to_border(found: &Found, x: usize, y: i16, set: &Nearest, border: Option<&Border>) -> f64 {
+fn to_border(found: &Found, x: usize, y: i16, set: &Nearest, border: &mut Option<Around>) -> f64 {
     let Some(border) = border else { return distance(found.squared[x]) };
     let nearest = usize::from(found.nearest[x]);
-    border.between([x, y as usize], [nearest, set.row(nearest, y)])
+    border.distance([x, y as usize], [nearest, set.row(nearest, y)])
 }
 
 fn seen(counts: &[u8]) -> [bool; 256] {

@@ -1,11 +1,14 @@
 //! The built-in character, looked at from all sides, bent, and with every expression.
 
 use std::collections::BTreeMap;
+use std::path::Path;
+use std::process::Command;
 
 use glam::{Quat, Vec3};
 use hikage::golden::{Goldens, Tolerance};
 use hikage::import::{Limits, load_bytes};
 use hikage::motion::{Pose, Stance};
+use hikage::picture::read_png;
 use hikage::scene::{Framing, HumanBone, Image, Role, Scene};
 use hikage::sdf::Project;
 use hikage::{Background, Channel, Gpu, GpuScene, Look, Output, Renderer, View, color::Srgb};
@@ -33,6 +36,12 @@ fn shrunk(picture: &Image) -> Image {
     let count = FINER * FINER;
     let pixels = sums.iter().map(|sum| ((sum + count / 2) / count) as u8).collect();
     Image { width, height, pixels, ..picture.clone() }
+}
+
+fn goldens() -> Goldens {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/golden");
+    let bless_command = "cargo xtask goldens --bless {name}".to_owned();
+    Goldens { bless_command, ..Goldens::new(folder) }
 }
 
 /// The character on the GPU.
@@ -66,9 +75,7 @@ impl Studio {
         change(&mut scene);
         let mut renderer = Renderer::with_output(&gpu, Output::default()).expect("a renderer");
         let gpu_scene = renderer.upload_and_empty_images(&mut scene).expect("the scene is uploaded");
-        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/golden");
-        let bless_command = "cargo xtask goldens --bless {name}".to_owned();
-        let goldens = Goldens { bless_command, ..Goldens::new(folder) };
+        let goldens = goldens();
         Self {
             gpu,
             renderer,
@@ -176,6 +183,23 @@ fn the_anime_look_is_as_before() {
         studio.check(&format!("channel-{name}"), [160; 2], framing, 0.0, Stance::Rest, None);
     }
     assert!(studio.faults.is_empty(), "{}", studio.faults.join("\n"));
+}
+
+#[test]
+fn the_preview_sheet_of_her_face_shadow_is_as_before() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
+    let [project, sheet] = ["preview.sdf.toml", "preview.png"].map(|name| folder.join(name));
+    std::fs::write(&project, sdf::SOURCE).expect("writes");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_hikage"));
+    command.args(["sdf", "preview"]).arg(&project).arg("-o").arg(&sheet).args(["--panel", "256"]);
+    if let Ok(adapter) = std::env::var("HIKAGE_ADAPTER") {
+        command.args(["--adapter", &adapter]);
+    }
+    let output = command.output().expect("runs");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let sheet = read_png(&sheet).expect("a sheet");
+    assert!(sheet.width % FINER == 0 && sheet.height % FINER == 0, "{} x {}", sheet.width, sheet.height);
+    goldens().check("character-face-shadow-sheet", &shrunk(&sheet), &TOLERANCE).unwrap_or_else(|e| panic!("{e}"));
 }
 
 /// What each mesh is taken for. No look file says so: names, bones and morphs do.

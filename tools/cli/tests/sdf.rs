@@ -1,8 +1,9 @@
 //! `hikage sdf` from drawings to maps and back, and what it says to bad input. No test here needs a GPU.
 
 use std::fs;
+use std::io::{BufRead as _, BufReader};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
 
 use hikage::picture::write_png;
 use hikage::scene::Image;
@@ -116,6 +117,48 @@ fn new_projects_bake_check_and_watch() {
     let said = done(&folder, "watch face/face.sdf.toml -o watched.png --times 1");
     assert!(said.contains("face.sdf.toml: watched.png in"), "{said}");
     assert!(fs::read(folder.join("watched.png")).expect("a map") == bytes);
+}
+
+#[test]
+fn watching_bakes_again_when_a_drawing_is_saved() {
+    let folder = folder("watch");
+    let words = format!("sdf watch {} --layout single -o map.png --times 3", keys(&folder));
+    let mut command = Command::new(env!("CARGO_BIN_EXE_hikage"));
+    command.args(words.split_whitespace()).current_dir(&folder);
+    let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("runs");
+    let mut said = BufReader::new(child.stdout.take().expect("a pipe")).lines();
+    let mut line = || said.next().expect("a line").expect("text");
+    assert!(line().starts_with("a.png, b.png, c.png: map.png in"));
+    let first = fs::read(folder.join("map.png")).expect("a map");
+    // As editors save: beside it, then renamed.
+    mask(&folder.join("new.png"), 64, 48, 30);
+    fs::rename(folder.join("new.png"), folder.join("b.png")).expect("renames");
+    assert!(line().starts_with("b.png: map.png in"));
+    assert!(fs::read(folder.join("map.png")).expect("a map") != first);
+    mask(&folder.join("c.png"), 64, 48, 10);
+    let changed = line();
+    assert!(changed.starts_with("c.png: map.png in"), "{changed}");
+    assert!(line().contains("dark at 90 and lit again at 180"));
+    assert!(child.wait().expect("ends").success());
+}
+
+#[test]
+fn drawings_made_from_a_mesh_bake_without_a_fault() {
+    let folder = folder("from");
+    fs::write(folder.join("girl.vrm"), hikage_character::file()).expect("writes");
+    let shared = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/models/Seed-san_rebuilt.vrm");
+    let mut models = vec![folder.join("girl.vrm")];
+    if shared.is_file() {
+        models.push(shared);
+    } else {
+        eprintln!("not tested: {} is absent", shared.display());
+    }
+    for (i, model) in models.iter().enumerate() {
+        done(&folder, &format!("new face{i} --size 512 --from {}", model.display()));
+        let said = done(&folder, &format!("check face{i}/face.sdf.toml"));
+        assert_eq!(said, "nothing to remark\n", "{}", model.display());
+        done(&folder, &format!("bake face{i}/face.sdf.toml -o map.png"));
+    }
 }
 
 #[test]

@@ -42,7 +42,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let start = Instant::now();
     let baked = project.bake(args.repair)?;
     let measured = start.elapsed();
-    let repaired = baked.left.wrong.len() + baked.right.as_ref().map_or(0, |r| r.wrong.len());
+    let repaired = baked.repaired();
     if repaired > 0 {
         warn(&format!("{repaired} texels of contradicting keys repaired (`hikage sdf check` names them)"));
     }

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use hikage::sdf::{CapFront, DrawnKey, Layout, MaskChannel, Profile, Project, ProjectKey};
+use hikage::sdf::{Blend, CapFront, DrawnKey, Layout, MaskChannel, Profile, Project, ProjectKey};
 
 use crate::failure::Failure;
 
@@ -35,6 +35,9 @@ pub(super) struct Input {
     /// as 0:0,90:1 [default: linear].
     #[arg(long, value_name = "PROFILE", value_parser = profile)]
     profile: Option<Profile>,
+    /// How the border runs between two drawings: at an even pace, or without a change of pace at a key [default: linear].
+    #[arg(long, value_name = "linear|smooth", value_parser = blend)]
+    blend: Option<Blend>,
     /// Light from the right is the mirror image.
     #[arg(long)]
     mirror: bool,
@@ -58,6 +61,7 @@ impl Input {
         project.bits = self.bits.unwrap_or(project.bits);
         project.layout = self.layout.clone().unwrap_or(project.layout);
         project.profile = self.profile.clone().unwrap_or(project.profile);
+        project.blend = self.blend.unwrap_or(project.blend);
         project.cap_front = self.cap_front.unwrap_or(project.cap_front);
         project.check()?;
         Ok(project)
@@ -80,6 +84,14 @@ fn channel(text: &str) -> Result<MaskChannel, String> {
         "luma" => Ok(MaskChannel::Luma),
         "alpha" => Ok(MaskChannel::Alpha),
         _ => Err("expected luma or alpha".into()),
+    }
+}
+
+fn blend(text: &str) -> Result<Blend, String> {
+    match text {
+        "linear" => Ok(Blend::Linear),
+        "smooth" => Ok(Blend::Smooth),
+        _ => Err("expected linear or smooth".into()),
     }
 }
 

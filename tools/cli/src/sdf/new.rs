@@ -83,7 +83,14 @@ fn drawn(args: &Args, guide: &FaceMap) -> Result<String, Failure> {
     let right = ANGLES.iter().filter(|a| !symmetric && **a > 0.0).map(|a| -a);
     for angle in right.rev().chain(ANGLES) {
         let file = file_name(angle);
-        write_png(args.folder.join("keys").join(&file), &picture(&mask(guide, angle, args.size)))?;
+        let mut lit = mask(guide, angle, args.size);
+        if symmetric && angle == 0.0 {
+            // Where light passes from one side to the other, nothing may jump.
+            let flipped: Vec<u8> =
+                lit.coverage.chunks_exact(args.size as usize).flat_map(|r| r.iter().rev().copied()).collect();
+            lit.coverage.iter_mut().zip(flipped).for_each(|(c, f)| *c = (*c).max(f));
+        }
+        write_png(args.folder.join("keys").join(&file), &picture(&lit))?;
         let _ = writeln!(keys, "    {{ angle = {angle}, file = \"keys/{file}\" }},");
     }
     Ok(format!(
@@ -111,10 +118,15 @@ fn is_symmetric(guide: &FaceMap) -> bool {
 /// What is lit at an angle, the thresholds read between texels so that the border is smooth at any size.
 fn mask(guide: &FaceMap, angle: f32, size: u32) -> Mask {
     let (width, height) = (guide.width as usize, guide.height as usize);
-    let channel = if angle < 0.0 { 0 } else { 1 };
+    // In front both sides share one drawing: lit is what light from either side finds lit later on.
+    let lit = |p: &[u16; 4]| match angle {
+        0.0 => p[0].max(p[1]),
+        a if a < 0.0 => p[0],
+        _ => p[1],
+    };
     let texel = |x: usize, y: usize| {
         let all = guide.front.first().map_or(&[] as &[_], Vec::as_slice);
-        all.get(y.min(height - 1) * width + x.min(width - 1)).map_or(0.0, |p| f32::from(p[channel]) / 65535.0)
+        all.get(y.min(height - 1) * width + x.min(width - 1)).map_or(0.0, |p| f32::from(lit(p)) / 65535.0)
     };
     let at = |x: u32, y: u32| {
         let place = |p: u32, side: usize| ((p as f32 + 0.5) / size as f32 * side as f32 - 0.5).max(0.0);

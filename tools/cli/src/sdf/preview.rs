@@ -52,7 +52,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     spinner.step("baking");
     let project = Project::read(&args.project)?;
     let baked = project.bake(true)?;
-    if !baked.left.wrong.is_empty() {
+    if baked.repaired() > 0 {
         warn("keys contradict each other; the map is repaired (`hikage sdf check` names the places)");
     }
     let sides = baked.into_sides();
