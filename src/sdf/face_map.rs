@@ -29,7 +29,7 @@ pub struct FaceMap {
     /// What is lit is multiplied by this where the light stands at the side (red: for light from the right, green: from
     /// the left) and behind (blue: from the right, alpha: from the left); empty for none.
     pub masks: Vec<[u16; 4]>,
-    /// Whether 8 bits a channel hold it all.
+    /// Whether the GPU holds it in 8 bits a channel, rounded.
     pub is_8_bit: bool,
 }
 

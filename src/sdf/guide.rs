@@ -14,8 +14,9 @@ use crate::scene::{HumanBone, Image, Primitive, Role, Scene};
 const SIDE: usize = 512;
 /// Share of the mesh's own normals; the rest is the proxy's.
 const OWN: f32 = 0.25;
-/// Texels that the map is grown beyond the triangles, so that filtering meets no hole.
-const GROWN: usize = 6;
+/// Texels that the map is grown beyond the triangles: over the holes of eyes and mouth, and so far that the end bends no
+/// distance on the face.
+const GROWN: usize = 40;
 /// Texels that the triangles' boxes may cover in all, in maps: those of an unwrapped face cover it about twice, and a
 /// hostile file must not keep us busy.
 const MOST: usize = 64;
@@ -72,10 +73,8 @@ pub fn face_map(scene: &Scene, material: usize) -> Option<FaceMap> {
     if shared * 20 > texels.iter().filter(|t| t.covered).count() {
         return None;
     }
-    for _ in 0..GROWN {
-        grow(&mut texels);
-    }
-    let code = |x: f32| (x.clamp(0.0, 1.0) * 255.0).round() as u16 * 257;
+    grow(&mut texels);
+    let code = |x: f32| (x.clamp(0.0, 1.0) * 65535.0).round() as u16;
     let rgba = texels.par_iter().map(|t| [code(t.value.x), code(t.value.y), code(t.value.z), u16::MAX]).collect();
     let side = SIDE as u32;
     Some(FaceMap::single("from the mesh", Texels { width: side, height: side, rgba, is_8_bit: true }))
@@ -139,23 +138,32 @@ fn fill(texels: &mut [Texel], [a, b, c]: [&Corner; 3]) -> usize {
     shared
 }
 
-/// Covers every texel beside covered ones with their mean.
+/// Covers what lies round the triangles, ring by ring, with the mean of what is covered beside it.
 fn grow(texels: &mut [Texel]) {
-    let before = texels.to_vec();
-    for (i, texel) in texels.iter_mut().enumerate().filter(|(_, t)| !t.covered) {
+    let beside = |i: usize| {
         let (x, y) = (i % SIDE, i / SIDE);
-        let (mut sum, mut count) = (Vec3::ZERO, 0.0);
-        for y in y.saturating_sub(1)..(y + 2).min(SIDE) {
-            for near in &before[y * SIDE..][x.saturating_sub(1)..(x + 2).min(SIDE)] {
-                if near.covered {
-                    sum += near.value;
-                    count += 1.0;
-                }
+        let rows = y.saturating_sub(1)..(y + 2).min(SIDE);
+        rows.flat_map(move |y| (x.saturating_sub(1)..(x + 2).min(SIDE)).map(move |x| y * SIDE + x))
+    };
+    let mut ring: Vec<usize> =
+        (0..texels.len()).filter(|i| !texels[*i].covered && beside(*i).any(|n| texels[n].covered)).collect();
+    let mut is_queued = vec![false; texels.len()];
+    for _ in 0..GROWN {
+        let mean = |i: &usize| {
+            let (sum, count) = beside(*i)
+                .filter(|n| texels[*n].covered)
+                .fold((Vec3::ZERO, 0.0), |(sum, count), n| (sum + texels[n].value, count + 1.0));
+            Texel { value: sum / f32::max(count, 1.0), covered: true }
+        };
+        let means: Vec<Texel> = ring.iter().map(mean).collect();
+        ring.iter().zip(means).for_each(|(i, mean)| texels[*i] = mean);
+        let mut next = Vec::new();
+        for n in ring.iter().flat_map(|i| beside(*i)) {
+            if !texels[n].covered && !std::mem::replace(&mut is_queued[n], true) {
+                next.push(n);
             }
         }
-        if count > 0.0 {
-            *texel = Texel { value: sum / count, covered: true };
-        }
+        ring = next;
     }
 }
 

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use hikage::picture::{write_atomic, write_png};
 use hikage::scene::{Role, Scene};
-use hikage::sdf::{FaceMap, Mask, face_map, wireframe};
+use hikage::sdf::{FaceMap, LIT, Mask, face_map, wireframe};
 
 use super::unpack::{file_name, picture};
 use crate::failure::Failure;
@@ -81,14 +81,17 @@ fn drawn(args: &Args, guide: &FaceMap) -> Result<String, Failure> {
     let symmetric = is_symmetric(guide);
     let mut keys = String::new();
     let right = ANGLES.iter().filter(|a| !symmetric && **a > 0.0).map(|a| -a);
+    let fields = [0, 1].map(|channel| Field::new(guide, channel, args.size));
     for angle in right.rev().chain(ANGLES) {
         let file = file_name(angle);
-        let mut lit = mask(guide, angle, args.size);
-        if symmetric && angle == 0.0 {
-            // Where light passes from one side to the other, nothing may jump.
-            let flipped: Vec<u8> =
-                lit.coverage.chunks_exact(args.size as usize).flat_map(|r| r.iter().rev().copied()).collect();
-            lit.coverage.iter_mut().zip(flipped).for_each(|(c, f)| *c = (*c).max(f));
+        let mut lit = fields[usize::from(angle >= 0.0)].mask(angle);
+        if angle == 0.0 {
+            // There both sides share one drawing, and nothing may jump: lit is what light from either finds lit later on.
+            let mut other = fields[0].mask(angle).coverage;
+            if symmetric {
+                other = lit.coverage.chunks_exact(args.size as usize).flat_map(|r| r.iter().rev().copied()).collect();
+            }
+            lit.coverage.iter_mut().zip(other).for_each(|(c, o)| *c = if (*c).max(o) >= LIT { 255 } else { 0 });
         }
         write_png(args.folder.join("keys").join(&file), &picture(&lit))?;
         let _ = writeln!(keys, "    {{ angle = {angle}, file = \"keys/{file}\" }},");
@@ -115,25 +118,69 @@ fn is_symmetric(guide: &FaceMap) -> bool {
     differ * 20 < all
 }
 
-/// What is lit at an angle, the thresholds read between texels so that the border is smooth at any size.
-fn mask(guide: &FaceMap, angle: f32, size: u32) -> Mask {
-    let (width, height) = (guide.width as usize, guide.height as usize);
-    // In front both sides share one drawing: lit is what light from either side finds lit later on.
-    let lit = |p: &[u16; 4]| match angle {
-        0.0 => p[0].max(p[1]),
-        a if a < 0.0 => p[0],
-        _ => p[1],
-    };
-    let texel = |x: usize, y: usize| {
-        let all = guide.front.first().map_or(&[] as &[_], Vec::as_slice);
-        all.get(y.min(height - 1) * width + x.min(width - 1)).map_or(0.0, |p| f32::from(lit(p)) / 65535.0)
-    };
-    let at = |x: u32, y: u32| {
-        let place = |p: u32, side: usize| ((p as f32 + 0.5) / size as f32 * side as f32 - 0.5).max(0.0);
-        let (u, v) = (place(x, width), place(y, height));
-        let (i, j, s, t) = (u as usize, v as usize, u.fract(), v.fract());
-        let row = |j: usize| texel(i, j) * (1.0 - s) + texel(i + 1, j) * s;
-        row(j) * (1.0 - t) + row(j + 1) * t
-    };
-    Mask::from_fn(size, size, |x, y| at(x, y) > angle.abs() / 180.0)
+/// Thresholds of a guide for light from one side, at the size of the drawings.
+struct Field {
+    size: u32,
+    values: Vec<f32>,
+}
+
+impl Field {
+    /// Reads between the guide's texels, so that borders are smooth at any size.
+    fn new(guide: &FaceMap, channel: usize, size: u32) -> Self {
+        let (width, height) = (guide.width as usize, guide.height as usize);
+        let texels = guide.front.first().map_or(&[] as &[_], Vec::as_slice);
+        let texel = |x: usize, y: usize| {
+            let p = texels.get(y.min(height - 1) * width + x.min(width - 1));
+            p.map_or(0.0, |p| f32::from(p[channel]) / 65535.0)
+        };
+        let at = |i: u32| {
+            let place = |p: u32, side: usize| ((p as f32 + 0.5) / size as f32 * side as f32 - 0.5).max(0.0);
+            let (u, v) = (place(i % size, width), place(i / size, height));
+            let (i, j, s, t) = (u as usize, v as usize, u.fract(), v.fract());
+            let row = |j: usize| texel(i, j) * (1.0 - s) + texel(i + 1, j) * s;
+            row(j) * (1.0 - t) + row(j + 1) * t
+        };
+        let mut values: Vec<f32> = (0..size * size).map(at).collect();
+        // Where the mesh folds, thresholds turn over within a few texels; nobody wants to paint over such combs.
+        for _ in 0..3 {
+            values = blurred_and_turned(&values, size as usize);
+            values = blurred_and_turned(&values, size as usize);
+        }
+        Self { size, values }
+    }
+
+    /// What is lit at an angle, with antialiased borders.
+    fn mask(&self, angle: f32) -> Mask {
+        // The guide fades out to 0 at its end, where no border could be told.
+        let (side, threshold) = (self.size as usize, (angle.abs() / 180.0).max(0.01));
+        let coverage = |i: usize| {
+            let (x, y) = (i % side, i / side);
+            let slope = |a: usize, b: usize| self.values[b] - self.values[a];
+            let across = slope(i - usize::from(x > 0), i + usize::from(x + 1 < side));
+            let down = slope(i - side * usize::from(y > 0), i + side * usize::from(y + 1 < side));
+            let per_texel = across.hypot(down) * 0.5;
+            let over = self.values[i] - threshold;
+            let share = match per_texel {
+                // Even, or the end of the guide: no border runs through the texel.
+                0.0..1e-5 | 0.1.. => f32::from(over > 0.0),
+                _ => over / per_texel + 0.5,
+            };
+            // What is lit at one half stays so after rounding.
+            ((share.clamp(0.0, 1.0) * 256.0).ceil() - 1.0).clamp(0.0, 255.0) as u8
+        };
+        Mask { width: self.size, height: self.size, coverage: (0..side * side).map(coverage).collect() }
+    }
+}
+
+/// The mean of each texel and a few on both sides of it in its row; rows become columns.
+fn blurred_and_turned(values: &[f32], side: usize) -> Vec<f32> {
+    let reach = (side / 256).max(1);
+    let mut out = vec![0.0; values.len()];
+    for (y, row) in values.chunks_exact(side).enumerate() {
+        for x in 0..side {
+            let near = &row[x.saturating_sub(reach)..(x + reach + 1).min(side)];
+            out[x * side + y] = near.iter().sum::<f32>() / near.len() as f32;
+        }
+    }
+    out
 }

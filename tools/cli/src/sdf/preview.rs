@@ -6,7 +6,7 @@ use glam::Vec3;
 use hikage::picture::{encode_png, write_atomic};
 use hikage::render::Output;
 use hikage::scene::{Framing, Image, Scene};
-use hikage::sdf::{Mask, Project, Sides};
+use hikage::sdf::{Mask, Project, ProjectKey, Sides};
 use hikage::{Background, Gpu, Look, Renderer, View, motion::Stance};
 
 use crate::animation::{Animation, Kind};
@@ -37,6 +37,9 @@ pub(crate) struct Args {
 const SHEET_STEP: usize = 15;
 const FRAME_STEP: usize = 6;
 const FRAME_MS: u32 = 70;
+/// Of the framing of a head: part of the height that is shown, and part by which the view is lowered.
+const CLOSER: f32 = 0.66;
+const LOWER: f32 = 0.1;
 
 fn output(text: &str) -> Result<PathBuf, String> {
     let known = [".png", ".webp", ".gif"].iter().any(|ending| text.to_ascii_lowercase().ends_with(ending));
@@ -64,7 +67,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     }
     spinner.step("making pipelines");
     let gpu = setup::gpu(args.adapter.as_deref())?;
-    let mut stage = Stage::new(&gpu, scene, sides, args.panel)?;
+    let mut stage = Stage::new(&gpu, scene, &project, sides, args.panel)?;
     let ending = args.output.extension().map(|e| e.to_ascii_lowercase().to_string_lossy().into_owned());
     let bytes = match ending.as_deref() {
         Some("gif") => stage.animation(Kind::Gif, &spinner)?,
@@ -83,17 +86,27 @@ struct Stage {
     view: View,
     sides: Sides,
     panel: u32,
+    /// Angles that are drawn, degrees.
+    drawn: Vec<f32>,
+    is_mirrored: bool,
 }
 
 impl Stage {
-    fn new(gpu: &Gpu, mut scene: Scene, sides: Sides, panel: u32) -> Result<Self, Failure> {
+    fn new(gpu: &Gpu, mut scene: Scene, project: &Project, sides: Sides, panel: u32) -> Result<Self, Failure> {
         let mut renderer = Renderer::with_output(gpu, Output::default())?;
         let mut gpu_scene = renderer.upload_and_empty_images(&mut scene)?;
         let pose = setup::pose(&scene, Stance::Rest, &[])?;
-        let framed = View::framed_pose(&scene, &pose, Framing::Face, 0.0, [panel; 2]);
+        let mut framed = View::framed_pose(&scene, &pose, Framing::Face, 0.0, [panel; 2]);
+        // From the brows to the chin.
+        let camera = &mut framed.camera;
+        let height = 2.0 * (camera.eye - camera.target).length() * (camera.fov_y_rad * 0.5).tan();
+        let down = Vec3::NEG_Y * height * LOWER;
+        (camera.eye, camera.target) = (camera.eye + down, camera.target + down);
+        camera.fov_y_rad *= CLOSER;
         gpu_scene.set_pose(gpu, &scene, &pose);
         let view = View { background: Background::Color(BEHIND), ..framed };
-        Ok(Self { renderer, gpu_scene, view, sides, panel })
+        let drawn = project.keys.iter().map(ProjectKey::angle).collect();
+        Ok(Self { renderer, gpu_scene, view, is_mirrored: sides.right.is_none(), sides, panel, drawn })
     }
 
     /// The face under level light from an angle, degrees to the character's left.
@@ -113,7 +126,7 @@ impl Stage {
         shrunk(&map, self.panel, flip)
     }
 
-    /// Two rows for light from the left and two for light from the right: the face, and the mask below.
+    /// Two rows for light from the character's left and two for light from the right: the face, and the mask below.
     fn sheet(&mut self, spinner: &Spinner) -> Result<Image, Failure> {
         let angles: Vec<f32> = (0..=180).step_by(SHEET_STEP).map(|a| a as f32).collect();
         let pitch = self.panel + GAP;
@@ -126,7 +139,11 @@ impl Stage {
                 let angle = if *angle == 0.0 { 0.0 } else { angle * sign };
                 place(&mut sheet, &self.face(angle)?, left, top);
                 place(&mut sheet, &self.mask(angle), left, top + pitch);
-                write(&mut sheet, &format!("light {angle:.0}\u{b0}"), left, top + 2 * pitch - 4);
+                let is_drawn = self.drawn.iter().any(|d| *d == angle || self.is_mirrored && *d == angle.abs());
+                let side = ["right", "", "left"][usize::from(angle >= 0.0) + usize::from(angle > 0.0)];
+                let key = if is_drawn { "key" } else { "" };
+                let caption = format!("{:.0}\u{b0} {side} {key}", angle.abs()).replace("  ", " ");
+                write(&mut sheet, caption.trim_end(), left, top + 2 * pitch - 4);
             }
         }
         Ok(sheet)
