@@ -44,7 +44,7 @@ impl Session {
     /// Takes another mask for a key; the map is that of [`bake`]. After an error all is as it was before.
     ///
     /// # Errors
-    /// [`Error::Argument`] for a key that does not exist, a mask of another size, and, without
+    /// [`Error::Argument`](crate::Error::Argument) for a key that does not exist, a mask of another size, and, without
     /// [`repair`](BakeOptions::repair), texels that light up again.
     pub fn replace(&mut self, key: usize, mut mask: Mask) -> Result<()> {
         let Some(own) = self.keys.get_mut(key) else {

@@ -156,7 +156,7 @@ fn drawings_made_from_a_mesh_bake_without_a_fault() {
     for (i, model) in models.iter().enumerate() {
         done(&folder, &format!("new face{i} --size 512 --from {}", model.display()));
         let said = done(&folder, &format!("check face{i}/face.sdf.toml"));
-        assert_eq!(said, "nothing to remark\n", "{}", model.display());
+        assert!(!said.contains("fault") && !said.contains("colour space"), "{}: {said}", model.display());
         done(&folder, &format!("bake face{i}/face.sdf.toml -o map.png"));
     }
 }
