@@ -58,6 +58,21 @@ impl Srgb {
     }
 }
 
+/// Turns the hue of linear colours about the axis of greys by an angle, radians (from red towards yellow), and multiplies
+/// their saturation; luminance stays. Columns of a matrix. A colour may leave the gamut by it.
+#[must_use]
+pub(crate) fn hue_saturation(hue_rad: f32, saturation: f32) -> [[f32; 3]; 3] {
+    let luminance = glam::Vec3::new(0.2126, 0.7152, 0.0722);
+    let axis = glam::Vec3::ONE.normalize();
+    let turn = glam::Mat3::from_axis_angle(axis, hue_rad);
+    [glam::Vec3::X, glam::Vec3::Y, glam::Vec3::Z].map(|unit| {
+        let y = luminance.dot(unit);
+        let turned = turn * (unit - y) * saturation;
+        // The turn keeps the mean of the three, not the luminance.
+        (turned + y - luminance.dot(turned)).to_array()
+    })
+}
+
 /// sRGB decoding (IEC 61966-2-1): encoded 0..=1 to linear 0..=1.
 #[must_use]
 pub fn linear_from_srgb(encoded: f32) -> f32 {
@@ -89,6 +104,29 @@ mod tests {
             let srgb = Srgb([code, 255 - code, code]);
             assert_eq!(srgb.to_linear().to_srgb(), srgb);
         }
+    }
+
+    #[test]
+    fn a_turn_of_hue_keeps_luminance_and_greys() {
+        let apply = |m: [[f32; 3]; 3], c: [f32; 3]| {
+            let at = |i: usize| m[0][i] * c[0] + m[1][i] * c[1] + m[2][i] * c[2];
+            [at(0), at(1), at(2)]
+        };
+        let luminance = |c: [f32; 3]| 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];
+        let color = [0.6, 0.3, 0.2];
+        for (hue, saturation) in [(0.0, 1.0), (0.4, 1.0), (-1.2, 1.5), (0.0, 0.0), (3.0, 0.5)] {
+            let matrix = hue_saturation(hue, saturation);
+            let turned = apply(matrix, color);
+            assert!((luminance(turned) - luminance(color)).abs() < 1e-5, "{hue}, {saturation}: {turned:?}");
+            assert!(apply(matrix, [0.5; 3]).iter().all(|c| (c - 0.5).abs() < 1e-5));
+        }
+        let same = apply(hue_saturation(0.0, 1.0), color);
+        assert!(same.iter().zip(color).all(|(a, b)| (a - b).abs() < 1e-6), "{same:?}");
+        let grey = apply(hue_saturation(1.0, 0.0), color);
+        assert!(grey.iter().all(|c| (c - luminance(color)).abs() < 1e-5), "{grey:?}");
+        // Red turns towards yellow.
+        let yellow = apply(hue_saturation(0.5, 1.0), [0.6, 0.1, 0.1]);
+        assert!(yellow[1] > yellow[2] + 0.1, "{yellow:?}");
     }
 
     #[test]

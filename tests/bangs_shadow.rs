@@ -3,7 +3,7 @@
 use glam::{Mat4, Vec3};
 use hikage::color::LinearRgb;
 use hikage::scene::{Ambient, Bangs, Framing, Image, Role, Scene};
-use hikage::{Renderer, View};
+use hikage::{Channel, Renderer, View};
 
 #[path = "support/scene.rs"]
 mod support;
@@ -48,6 +48,31 @@ fn bangs_darken_the_forehead_and_nothing_gets_lighter() {
     let mut low = view.clone();
     low.lights.directional.to_light = Vec3::new(0.0, -0.6, 0.8).normalize();
     assert!(shadowed(&render(&gpu, &scene, &low), &render(&gpu, &without(&scene), &low)) < share);
+}
+
+/// On a ramp, received shadow has exactly the colour of full shade: place 0 wherever no light arrives.
+#[test]
+fn received_shadow_is_the_dark_end_of_the_ramp() {
+    let (gpu, mut scene) = (gpu(), anime_heroine());
+    let faces: Vec<usize> = (0..scene.materials.len()).filter(|m| scene.materials[*m].face_shadow.is_some()).collect();
+    for face in &faces {
+        let shadow = scene.materials[*face].bangs_shadow.as_mut().expect("the face gets shadow");
+        shadow.strength = 1.0;
+    }
+    let view = face(&scene, 256);
+    let channel = |channel| render(&gpu, &scene, &View { channel, ..view.clone() });
+    let (arrived, place) = (channel(Channel::BangsShadow), channel(Channel::ShadeRamp));
+    let of_face = channel(Channel::FaceShadow);
+    let (mut dark, mut lit) = (0, 0);
+    for ((arrived, place), face) in arrived.pixels.chunks(4).zip(place.pixels.chunks(4)).zip(of_face.pixels.chunks(4)) {
+        // Inside of the face, away from edges that samples share: full light of the map, and no light through the bangs.
+        if face[0] == 255 && arrived[0] == 0 {
+            assert!(place[0] <= 1, "place {} in full shadow", place[0]);
+            dark += 1;
+        }
+        lit += usize::from(face[0] == 255 && arrived[0] == 255 && place[0] > 128);
+    }
+    assert!(dark > 20 && lit > 1000, "{dark} dark and {lit} lit pixels");
 }
 
 /// Moving the whole character, or coming nearer, leaves the shadow on the same places of the face.

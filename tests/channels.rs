@@ -7,9 +7,10 @@ use hikage::{Channel, Renderer, View};
 mod support;
 use support::{anime_heroine, gpu, pixel};
 
-const SHADING: [Channel; 8] = [
+const SHADING: [Channel; 9] = [
     Channel::FaceShadow,
-    Channel::Transition,
+    Channel::ShadeRamp,
+    Channel::Fur,
     Channel::FacePaint,
     Channel::Highlight,
     Channel::BangsShadow,
@@ -34,9 +35,18 @@ fn every_channel_shows_its_part() {
     let before = renderer.render(&mut uploaded, &view).expect("a picture");
     let pictures =
         SHADING.map(|channel| renderer.render(&mut uploaded, &View { channel, ..view.clone() }).expect("a channel"));
-    // Face, transition, paint, highlight, bangs, layer, rim, eyes: how much of a portrait each covers.
-    let ranges =
-        [(0.2, 0.9), (0.05, 0.4), (0.05, 0.4), (0.005, 0.2), (0.05, 0.4), (0.01, 0.08), (0.002, 0.12), (0.001, 0.05)];
+    // Face, ramp, fur, paint, highlight, bangs, layer, rim, eyes: how much of a portrait each covers.
+    let ranges = [
+        (0.2, 0.9),
+        (0.2, 0.9),
+        (0.02, 0.2),
+        (0.05, 0.4),
+        (0.005, 0.2),
+        (0.05, 0.4),
+        (0.01, 0.08),
+        (0.002, 0.12),
+        (0.001, 0.05),
+    ];
     for ((channel, picture), (low, high)) in SHADING.iter().zip(&pictures).zip(ranges) {
         let share = share(picture);
         assert!((low..high).contains(&share), "{channel:?} covers {share}");
@@ -51,6 +61,20 @@ fn every_channel_shows_its_part() {
     // The picture itself is as it was.
     let after = renderer.render(&mut uploaded, &view).expect("a picture");
     assert!(before == after, "a channel has changed the picture");
+}
+
+/// Without ramps, light is tinted where it turns into shade.
+#[test]
+fn the_transition_is_shown_where_no_ramp_is() {
+    let (gpu, mut scene) = (gpu(), anime_heroine());
+    for material in &mut scene.materials {
+        material.transition = material.shade_ramp.take().and(Some(hikage::material::Transition::default()));
+    }
+    let mut renderer = Renderer::new(&gpu).expect("a renderer");
+    let mut uploaded = renderer.upload(&scene).expect("an upload");
+    let view = View { channel: Channel::Transition, ..View::framed(&scene, Framing::Face, 0.0, [256, 256]) };
+    let share = share(&renderer.render(&mut uploaded, &view).expect("a channel"));
+    assert!((0.05..0.99).contains(&share), "{share}");
 }
 
 /// A plain model has none of it.

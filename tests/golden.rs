@@ -6,10 +6,10 @@ use hikage::{
     color::{LinearRgb, Srgb},
     golden::{Goldens, Tolerance},
     material::{
-        Alpha, AlphaMode, Base, Emission, Matcap, Material, NormalMap, Outline, OutlineWidth, Rim, Shading, TextureRef,
-        Toon, UvAnimation, UvTransform,
+        Alpha, AlphaMode, Base, Emission, FurDetail, LightResponse, Matcap, Material, NormalMap, Outline, OutlineWidth,
+        RampMaps, Rim, ShadeRamp, Shading, TextureRef, Toon, UvAnimation, UvTransform,
     },
-    scene::{Ambient, PunctualLight, Scene, SpotCone},
+    scene::{Ambient, Image, PunctualLight, Sampler, Scene, SpotCone, Wrap},
 };
 
 #[path = "support/scene.rs"]
@@ -20,9 +20,13 @@ use support::{cube, gpu, render, scene, sphere, square, texture, two_tone, view}
 const TOLERANCE: Tolerance = Tolerance { channel: 6, outliers: 0.004, blob: 12, drift: 1.0 };
 
 fn check(name: &str, scene: &Scene, view: &View) {
+    check_picture(name, &render(&gpu(), scene, view));
+}
+
+fn check_picture(name: &str, picture: &Image) {
     let goldens =
         Goldens { bless_command: "cargo xtask goldens --bless {name}".to_owned(), ..Goldens::new("tests/golden") };
-    if let Err(error) = goldens.check(name, &render(&gpu(), scene, view), &TOLERANCE) {
+    if let Err(error) = goldens.check(name, picture, &TOLERANCE) {
         panic!("{error}");
     }
 }
@@ -70,6 +74,116 @@ fn quarters(x: u32, y: u32) -> [u8; 4] {
         (false, false) => [90, 130, 240],
     };
     [r - grid, g - grid, b - grid, 255]
+}
+
+/// Panels of a scene under level light that turns from the front to behind, for warm, white and cool light below each other.
+fn check_sweep(name: &str, scene: &Scene, view: &View, coolness: &[f32]) {
+    let gpu = gpu();
+    let mut rows = Vec::new();
+    for coolness in coolness {
+        let mut row: Option<Image> = None;
+        for degrees in [-60.0f32, -20.0, 30.0, 75.0, 115.0] {
+            let (sin, cos) = degrees.to_radians().sin_cos();
+            let mut view = view.clone();
+            view.lights.directional.to_light = Vec3::new(sin, 0.35, cos).normalize();
+            view.lights.coolness = Some(*coolness);
+            let panel = render(&gpu, scene, &view);
+            row = Some(match row {
+                None => panel,
+                Some(row) => beside(&row, &panel),
+            });
+        }
+        rows.extend(row);
+    }
+    let pixels = rows.iter().flat_map(|row| row.pixels.iter().copied()).collect();
+    let picture = Image { height: rows.iter().map(|r| r.height).sum(), pixels, ..rows[0].clone() };
+    check_picture(name, &picture);
+}
+
+fn beside(left: &Image, right: &Image) -> Image {
+    let rows = |image: &Image| image.width as usize * 4;
+    let pixels =
+        left.pixels.chunks(rows(left)).zip(right.pixels.chunks(rows(right))).flat_map(|(a, b)| [a, b].concat());
+    Image { width: left.width + right.width, pixels: pixels.collect(), ..left.clone() }
+}
+
+/// Warm and cool: hue and saturation of shade without a picture, over a terminator of its own.
+#[test]
+fn bands_of_shade_in_warm_and_cool_light() {
+    let ramp = ShadeRamp { shade_hue_rad: [0.5, -0.6], shade_saturation: [1.3, 1.1], ..ShadeRamp::default() };
+    let material = Material { shade_ramp: Some(ramp), ..toon(|_| ()) };
+    check_sweep("shade-bands", &row(vec![material]), &row_view(1), &[0.0, 1.0]);
+}
+
+/// Ramps in pictures, with another row for a part that a map tells apart.
+#[test]
+fn ramps_by_part_in_warm_and_cool_light() {
+    let mut scene = row(vec![toon(|_| ())]);
+    let painted = |rows: [[[u8; 3]; 2]; 2]| {
+        move |x: u32, y: u32| {
+            let [shade, terminator] = rows[usize::from(y >= 4)];
+            let color = match x {
+                0..26 => shade,
+                26..33 => terminator,
+                _ => [255; 3],
+            };
+            [color[0], color[1], color[2], 255]
+        }
+    };
+    let clamped = Sampler { wrap_u: Wrap::Clamp, wrap_v: Wrap::Clamp, ..Sampler::default() };
+    let warm = texture(&mut scene, 64, 8, painted([[[200, 110, 80], [255, 120, 40]], [[60, 120, 90], [190, 220, 90]]]));
+    let cool =
+        texture(&mut scene, 64, 8, painted([[[110, 90, 200], [220, 110, 190]], [[40, 90, 140], [90, 200, 220]]]));
+    for ramp in [warm, cool] {
+        scene.textures[ramp.texture].sampler = clamped;
+    }
+    // Checks of the sphere, each an eighth of the way round.
+    let part_ids = texture(&mut scene, 64, 32, |x, y| [u8::from((x / 8 + y / 8) % 2 == 1) * 2, 0, 0, 255]);
+    let maps = RampMaps { warm, cool, rows: 2, row: 0, part_ids: Some(part_ids), part_rows: [0, 1, 0, 0, 0, 0, 0, 0] };
+    scene.materials[0].base.color = [0.9, 0.85, 0.8, 1.0];
+    scene.materials[0].shade_ramp = Some(ShadeRamp { maps: Some(maps), ..ShadeRamp::default() });
+    check_sweep("shade-ramps", &scene, &row_view(1), &[0.0, 0.5, 1.0]);
+}
+
+/// Painted fur: few strokes in the light, all of them at the terminator, half of them in shade, and a border of light in the
+/// shape of the strands.
+#[test]
+fn fur_with_strands_at_the_terminator() {
+    let mut scene = row(vec![toon(|t| t.toony = 0.95)]);
+    let strand = |x: u32, y: u32| {
+        let shift = (y / 16 % 2) * 4;
+        let (u, v) = (((x + shift) % 8) as f32 / 8.0 - 0.5, (y % 16) as f32 / 16.0);
+        (u, v, u.abs() * 2.0 < 1.0 - v)
+    };
+    let color = texture(&mut scene, 128, 64, |x, y| match strand(x, y) {
+        (_, v, true) => [(255.0 - 60.0 * v) as u8, (238.0 - 70.0 * v) as u8, (225.0 - 60.0 * v) as u8, 255],
+        _ => [150, 110, 130, 255],
+    });
+    let normals = texture(&mut scene, 128, 64, |x, y| {
+        let (u, _, inside) = strand(x, y);
+        let n = Vec3::new(if inside { u * 1.6 } else { 0.0 }, if inside { 0.35 } else { -0.5 }, 1.0).normalize();
+        [(n.x * 127.0 + 128.0) as u8, (n.y * 127.0 + 128.0) as u8, (n.z * 127.0 + 128.0) as u8, 255]
+    });
+    scene.materials[0].base = Base { color: [1.0; 4], texture: Some(color) };
+    if let Shading::Toon(toon) = &mut scene.materials[0].shading {
+        toon.shade_texture = Some(color);
+        toon.shade_color = [0.62, 0.5, 0.7];
+    }
+    scene.materials[0].fur_detail = Some(FurDetail { detail_normal: normals, ..FurDetail::default() });
+    check_sweep("fur-detail", &scene, &row_view(1), &[0.5]);
+}
+
+/// Bounds of the light: in the dark, in twice the light, in green light that counts and that does not.
+#[test]
+fn light_between_bounds() {
+    let mut materials = vec![toon(|_| ()); 4];
+    let response = |min, max, monochrome| Some(LightResponse { min, max, monochrome });
+    materials[1].light_response = response(0.4, 0.8, 0.0);
+    materials[2].light_response = response(0.0, 0.8, 1.0);
+    materials[3].light_response = response(0.0, 10.0, 1.0);
+    let (scene, mut view) = (row(materials), row_view(4));
+    view.lights.directional.color = LinearRgb([0.5, 1.6, 0.5]);
+    check("light-response", &scene, &view);
 }
 
 #[test]
@@ -195,7 +309,7 @@ fn emission_adds_light_of_its_own() {
 #[test]
 fn outlines_of_every_kind() {
     let line = |width, color, lighting_mix| Material {
-        outline: Some(Outline { width, color, lighting_mix, width_mask: None }),
+        outline: Some(Outline { width, color, lighting_mix, ..Outline::default() }),
         ..two_tone()
     };
     let world = OutlineWidth::World { metres: 0.025 };
@@ -217,7 +331,7 @@ fn outlines_of_every_kind() {
 fn outlines_close_over_hard_edges() {
     let mut material = two_tone();
     let width = OutlineWidth::World { metres: 0.04 };
-    material.outline = Some(Outline { width, color: [0.1, 0.02, 0.05], lighting_mix: 0.0, width_mask: None });
+    material.outline = Some(Outline { width, color: [0.1, 0.02, 0.05], lighting_mix: 0.0, ..Outline::default() });
     let mut scene = scene(vec![(cube(0.33), material)]);
     scene.nodes[0].transform.rotation = Quat::from_rotation_x(0.5) * Quat::from_rotation_y(0.6);
     check("outline-cube", &scene, &view(192, 4.0));

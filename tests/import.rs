@@ -57,7 +57,7 @@ fn extras_may_hold_anything_and_name_highlights() {
     let texture = glb.texture(&picture(image::ImageFormat::Png), "image/png");
     glb.push("materials", json!({"name": "skin"}));
     glb.primitive()["material"] = json!(0);
-    let load = |glb: &Glb| glb.load().map(|scene| scene.materials[0].authored_highlight.map(|t| t.texture));
+    let load = |glb: &Glb| glb.load().map(|scene| scene.materials[0].authored.highlight.map(|t| t.texture));
     for extras in [json!(5), json!("hikage"), json!([1]), json!({"hikage": 7}), json!({"hikage": {"rampRow": 3}})] {
         glb.json["materials"][0]["extras"] = extras.clone();
         assert_eq!(load(&glb).expect("extras are free"), None, "{extras}");

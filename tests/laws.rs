@@ -124,7 +124,13 @@ fn uv_animation_moves_the_mask_of_the_outline() {
     let mut scene = scene(vec![(sphere(0.5, 64, 128), grey())]);
     let upper_half = texture(&mut scene, 64, 64, |_, y| [0, if y < 32 { 255 } else { 0 }, 0, 255]);
     let width = OutlineWidth::World { metres: 0.06 };
-    let outline = Outline { width, color: [0.0, 1.0, 0.0], lighting_mix: 0.0, width_mask: Some(upper_half) };
+    let outline = Outline {
+        width,
+        color: [0.0, 1.0, 0.0],
+        lighting_mix: 0.0,
+        width_mask: Some(upper_half),
+        ..Outline::default()
+    };
     scene.materials[0].outline = Some(outline);
     scene.materials[0].uv_animation.scroll_v_per_s = 0.5;
     let mut view = view(128, 4.0);

@@ -401,8 +401,9 @@ fn esm_taps_and_composition_match_the_vectors() {
     let list = cases(&file, "compose");
     let rows: Vec<Vec<f32>> =
         list.iter().map(|c| numbers(c, &["lit", "edge0", "edge1", "strength", "shadow_color"])).collect();
-    let body = "write3(out, bangs_factor(input[base], vec2f(input[base + 1u], input[base + 2u]), input[base + 3u],
-        input3(base + 4u)));";
+    let body = "
+        let share = bangs_share(input[base], vec2f(input[base + 1u], input[base + 2u]), input[base + 3u]);
+        write3(out, mix(vec3f(1.0), input3(base + 4u), share));";
     for (i, (case, found)) in list.iter().zip(run(&["bangs"], body, &rows, 3)).enumerate() {
         assert_close("composition", i, &found, &numbers(case, &["factor"]), 1e-5);
     }
@@ -442,10 +443,76 @@ fn a_caster_has_no_acne() {
             let tap = esm_taps(vec4f(0.5 + (f32(i) - 1.0 - f) * slope), 0.5, 1500.0, 0.001 / range).x;
             lit += bangs_weight(i, f) * tap;
         }
-        output[out] = bangs_factor(lit, vec2f(0.3, 0.7), 1.0, vec3f(0.0)).x;";
+        output[out] = 1.0 - bangs_share(lit, vec2f(0.3, 0.7), 1.0);";
     for (row, found) in rows.iter().zip(run(&["bangs"], body, &rows, 1)) {
         assert_eq!(found[0], 1.0, "{row:?}");
     }
+}
+
+#[test]
+fn fur_shows_its_strokes_by_region() {
+    let file = vectors("stylized.json");
+    let list = cases(&file, "fur");
+    let rows: Vec<Vec<f32>> =
+        list.iter().map(|c| numbers(c, &["NoL", "t_back", "t_lit", "soft", "flat", "detail"])).collect();
+    let body = "
+        let masks = fur_masks(input[base], vec2f(input[base + 1u], input[base + 2u]), input[base + 3u]);
+        write3(out, masks);
+        write3(out + 3u, fur_color(masks, vec3f(0.2, 0.8, 0.5), input3(base + 4u), input3(base + 7u)));";
+    for (i, (case, found)) in list.iter().zip(run(&["fur"], body, &rows, 6)).enumerate() {
+        assert_close("fur", i, &found, &numbers(case, &["lit", "terminator", "back", "color"]), 1e-5);
+    }
+}
+
+/// Regions of fur sum to 1 and none is negative, up to the softest borders that are allowed; a flat colour that is the mean
+/// of the detail keeps that mean.
+#[test]
+fn fur_masks_partition_unity() {
+    let rows: Vec<Vec<f32>> =
+        (-100..=100).flat_map(|x| [0.0f32, 0.05, 0.225].map(|soft| vec![x as f32 / 100.0, soft.max(1e-4)])).collect();
+    let body = "
+        let masks = fur_masks(input[base], vec2f(-0.15, 0.3), input[base + 1u]);
+        let shares = vec3f(0.2, 0.8, 0.5);
+        let light = fur_color(masks, shares, vec3f(0.5), vec3f(0.9));
+        let dark = fur_color(masks, shares, vec3f(0.5), vec3f(0.1));
+        write3(out, masks);
+        output[out + 3u] = (light.x + dark.x) * 0.5;";
+    for (row, found) in rows.iter().zip(run(&["fur"], body, &rows, 4)) {
+        assert!((found[..3].iter().sum::<f32>() - 1.0).abs() < 1e-6, "{row:?}: {found:?}");
+        assert!(found[..3].iter().all(|m| *m >= -1e-6) && (found[3] - 0.5).abs() < 1e-6, "{row:?}: {found:?}");
+    }
+}
+
+/// Bounds of light leave what lies between them alone, keep the hue of what does not, and know a light that is black.
+#[test]
+fn light_is_taken_between_its_bounds() {
+    let rows: Vec<Vec<f32>> =
+        [[0.0f32, 0.0, 0.0], [0.5, 0.4, 0.3], [4.0, 2.0, 1.0], [0.02, 0.01, 0.0]].map(|l| l.to_vec()).into();
+    let body = "
+        write3(out, light_response(input3(base), 0.1, 1.0, 0.0));
+        write3(out + 3u, light_response(input3(base), 0.1, 1.0, 1.0));
+        write3(out + 6u, light_response(input3(base), 0.0, 10.0, 0.0));";
+    let luminance = |c: &[f32]| 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];
+    for (row, found) in rows.iter().zip(run(&["light"], body, &rows, 9)) {
+        let wanted = luminance(row).clamp(0.1, 1.0);
+        assert!((luminance(&found[..3]) - wanted).abs() < 1e-5, "{row:?}: {found:?}");
+        assert!(found[3..6].iter().all(|c| (c - wanted).abs() < 1e-5), "{row:?}: {found:?}");
+        assert!(found[6..].iter().zip(row).all(|(f, r)| (f - r).abs() < 1e-6), "{row:?}: {found:?}");
+        if luminance(row) > 0.0 {
+            let ratio = found[0] / row[0];
+            assert!(found[..3].iter().zip(row).all(|(f, r)| (f - r * ratio).abs() < 1e-5), "{row:?}: {found:?}");
+        }
+    }
+}
+
+/// A ramp of bands begins with the shade and ends with the light, exactly, and passes the terminator between.
+#[test]
+fn bands_of_a_ramp_end_in_shade_and_light() {
+    let rows: Vec<Vec<f32>> = [0.0f32, 0.3, 0.48, 0.6, 1.0].map(|p| vec![p]).into();
+    let body = "write3(out, ramp_bands(vec3f(0.9, 0.8, 0.7), vec3f(0.2, 0.1, 0.3), vec3f(0.8, 0.4, 0.3),
+        vec4f(0.4, 0.46, 0.5, 0.56), input[base]));";
+    let found = run(&["shade_ramp"], body, &rows, 3);
+    assert_eq!(found, [[0.2, 0.1, 0.3], [0.2, 0.1, 0.3], [0.8, 0.4, 0.3], [0.9, 0.8, 0.7], [0.9, 0.8, 0.7]]);
 }
 
 #[test]

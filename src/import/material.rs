@@ -83,11 +83,21 @@ fn read_common(json: &Json, material: &mut Material, textures: &mut Textures, wa
 
     // Textures for looks, which glTF and MToon have no place for. Extras of others may hold anything.
     if let Some(maps) = json.get("extras").and_then(|e| e.get("hikage")).filter(Json::is_object) {
-        material.authored_highlight = match textures.info(&maps, "highlightBand", warnings)? {
+        material.authored.highlight = match textures.info(&maps, "highlightBand", warnings)? {
             None => textures.info(&maps, "noseLipHighlight", warnings)?,
             band => band,
         };
-        material.authored_face_paint = textures.info(&maps, "facePaint", warnings)?;
+        let authored = &mut material.authored;
+        authored.face_paint = textures.info(&maps, "facePaint", warnings)?;
+        authored.detail_normal = textures.info(&maps, "detailNormal", warnings)?;
+        authored.part_ids = textures.info(&maps, "partId", warnings)?;
+        let ramps = [textures.info(&maps, "rampWarm", warnings)?, textures.info(&maps, "rampCool", warnings)?];
+        authored.ramps = match ramps {
+            [Some(warm), Some(cool)] => Some([warm, cool]),
+            [one, other] => one.or(other).map(|ramp| [ramp; 2]),
+        };
+        let rows = maps.f32_or("rampRows", 1.0).clamp(1.0, 256.0) as u32;
+        authored.ramp_rows = [rows, (maps.f32_or("rampRow", 0.0).max(0.0) as u32).min(rows - 1)];
     }
 
     material.double_sided = json.bool("doubleSided")?.unwrap_or(false);
@@ -122,8 +132,10 @@ fn texture_refs(material: &mut Material) -> impl Iterator<Item = &mut TextureRef
         material.rim.mask.as_mut(),
         material.outline.as_mut().and_then(|o| o.width_mask.as_mut()),
         material.uv_animation.mask.as_mut(),
-        material.authored_highlight.as_mut(),
-        material.authored_face_paint.as_mut(),
+        material.authored.highlight.as_mut(),
+        material.authored.face_paint.as_mut(),
+        material.authored.detail_normal.as_mut(),
+        material.authored.part_ids.as_mut(),
     ]
     .into_iter()
     .chain(toon)

@@ -68,6 +68,7 @@ pub(super) fn apply(
         width_mask: textures.info(ext, "outlineWidthMultiplyTexture", warnings)?,
         color: color("outlineColorFactor", [0.0; 3])?,
         lighting_mix: unit("outlineLightingMixFactor", 1.0)?,
+        ..Outline::default()
     };
     material.outline = width.map(|_| outline);
 

@@ -199,7 +199,8 @@ fn outline(json: &Json, floats: &Json, width_mask: Option<TextureRef>) -> Option
     } else {
         0.0
     };
-    Some(Outline { width, width_mask, color: srgb(json, "_OutlineColor", [0.0; 4]), lighting_mix })
+    let color = srgb(json, "_OutlineColor", [0.0; 4]);
+    Some(Outline { width, width_mask, color, lighting_mix, ..Outline::default() })
 }
 
 /// A vector property; missing components keep their default.

@@ -6,8 +6,8 @@ use glam::Vec3;
 
 use super::hair_band;
 use crate::material::{
-    AlphaMode, BangsShadow, DepthRim, FacePaint, FaceShadow, Highlight, Layer, Material, Outline, OutlineWidth,
-    Shading, Transition,
+    AlphaMode, Authored, BangsShadow, DepthRim, FacePaint, FaceShadow, FurDetail, Highlight, Layer, Material, Outline,
+    OutlineTint, OutlineWidth, RampMaps, ShadeRamp, Shading, Transition,
 };
 use crate::scene::{Bangs, EyesThrough, Role, Scene};
 use crate::sdf::{FaceMap, Sides, face_map};
@@ -26,6 +26,7 @@ pub(super) fn apply(scene: &mut Scene, painted: Option<&Sides>) {
     for material in materials_of(scene, Role::Skin) {
         scene.materials[material].transition = Some(Transition::default());
     }
+    painted_shade(scene);
     let shadow = BangsShadow { color: [0.78, 0.5, 0.52], ..BangsShadow::default() };
     for material in materials_of(scene, Role::Mouth) {
         scene.materials[material].bangs_shadow = Some(shadow);
@@ -38,9 +39,16 @@ pub(super) fn materials_of(scene: &Scene, role: Role) -> BTreeSet<usize> {
     parts.filter(|p| p.role == role).map(|p| p.material).filter(|m| *m < scene.materials.len()).collect()
 }
 
-/// Lines round a character whose file knows none, in a dark tone of what they surround.
+/// Luminance up to which a line counts as black.
+const BLACK: f32 = 0.02;
+
+/// Lines in a dark tone of what they surround: instead of black ones, and round a character whose file knows none.
 fn outlines(scene: &mut Scene) {
     if scene.materials.iter().any(|m| m.outline.is_some()) {
+        let black = |o: &&mut Outline| o.color.iter().all(|c| *c < BLACK);
+        for outline in scene.materials.iter_mut().filter_map(|m| m.outline.as_mut()).filter(black) {
+            outline.tint = Some(OutlineTint::default());
+        }
         return;
     }
     let drawn: BTreeSet<usize> =
@@ -52,7 +60,7 @@ fn outlines(scene: &mut Scene) {
         let material = &mut scene.materials[index];
         if material.alpha.mode != AlphaMode::Blend {
             let width = OutlineWidth::Screen { height_ratio: 0.0016 };
-            material.outline = Some(Outline { width, color: [0.33, 0.22, 0.25], ..Outline::default() });
+            material.outline = Some(Outline { width, tint: Some(OutlineTint::default()), ..Outline::default() });
         }
     }
 }
@@ -92,7 +100,7 @@ fn hair(scene: &mut Scene) {
         for index in materials_of(scene, role) {
             let material = &mut scene.materials[index];
             material.depth_rim = (material.alpha.mode != AlphaMode::Blend).then_some(rim);
-            material.highlight = material.authored_highlight.map(|map| Highlight {
+            material.highlight = material.authored.highlight.map(|map| Highlight {
                 map,
                 second_strength: 0.5,
                 second_color: [0.86, 0.84, 1.0],
@@ -120,7 +128,7 @@ fn faces(scene: &mut Scene, painted: Option<&Sides>) {
         material.bangs_shadow = Some(BangsShadow { color: shade, ..BangsShadow::default() });
         material.transition = Some(Transition::default());
         material.depth_rim = Some(DepthRim { strength: 0.5, threshold_m: 0.15, width_px: 3.0, ..DepthRim::default() });
-        material.highlight = material.authored_highlight.map(|map| Highlight {
+        material.highlight = material.authored.highlight.map(|map| Highlight {
             map,
             strength: 0.9,
             light_v: 0.0,
@@ -130,11 +138,36 @@ fn faces(scene: &mut Scene, painted: Option<&Sides>) {
             facing: 0.35,
             ..Highlight::default()
         });
-        material.face_paint = material.authored_face_paint.map(|map| FacePaint { map, ..FacePaint::default() });
+        material.face_paint = material.authored.face_paint.map(|map| FacePaint { map, ..FacePaint::default() });
         if let Some(map) = map {
             scene.face_maps.push(map);
             material.face_shadow = Some(FaceShadow { map: scene.face_maps.len() - 1, ..FaceShadow::default() });
         }
+    }
+}
+
+/// Ramps and strokes of fur, where the file carries them. Eyes stay as they are drawn.
+fn painted_shade(scene: &mut Scene) {
+    let eyes: BTreeSet<usize> = [Role::EyeWhite, Role::Eye, Role::EyeHighlight, Role::Lash, Role::Brow]
+        .into_iter()
+        .flat_map(|role| materials_of(scene, role))
+        .collect();
+    let skin: BTreeSet<usize> =
+        [Role::Face, Role::Skin, Role::Mouth].into_iter().flat_map(|role| materials_of(scene, role)).collect();
+    for (index, material) in scene.materials.iter_mut().enumerate().filter(|(i, _)| !eyes.contains(i)) {
+        let Authored { ramps, ramp_rows: [rows, row], detail_normal, .. } = material.authored;
+        let maps = ramps.map(|[warm, cool]| RampMaps { warm, cool, rows, row, ..RampMaps::default() });
+        // On skin the terminator is a thin blush.
+        let width = if skin.contains(&index) {
+            0.18
+        } else {
+            ShadeRamp::default().width
+        };
+        material.shade_ramp = maps.map(|maps| ShadeRamp { maps: Some(maps), width, ..ShadeRamp::default() });
+        if maps.is_some() {
+            material.transition = None;
+        }
+        material.fur_detail = detail_normal.map(|detail_normal| FurDetail { detail_normal, ..FurDetail::default() });
     }
 }
 

@@ -31,6 +31,7 @@ const MAX_BYTES: u64 = 1 << 20;
 /// [light]                             # lights of pictures that name none
 /// direction_deg = [-40, 30]           # to the character's left, and height
 /// color = "#fff4e8"
+/// coolness = 0.2                      # of shade ramps: 0 warm, 1 cool; by the light's colour where it is missing
 ///
 /// [bangs]                             # sections of the scene; false switches one off
 /// soft_width_mm = 4
@@ -84,6 +85,7 @@ struct LightSection {
     color: [f32; 3],
     intensity: f32,
     ambient: [f32; 3],
+    coolness: Option<f32>,
 }
 
 impl Default for LightSection {
@@ -95,6 +97,7 @@ impl Default for LightSection {
             color: light.color.0,
             intensity: light.intensity,
             ambient: Ambient::default().sky.0,
+            coolness: None,
         }
     }
 }
@@ -350,7 +353,13 @@ impl LookFile {
             match value {
                 Value::Table(inner) if parent != "face_shadow" => self.textures(scene, inner, key, pointer)?,
                 Value::String(name) if TEXTURE_KEYS.contains(&key.as_str()) => {
-                    let texture = add_texture(scene, image::load(self.beside_this(Path::new(name), pointer)?)?);
+                    // Highlights that move out of their map must not come in on the other side; skins and clothes stay within.
+                    let wrap = if REPEATED_KEYS.contains(&key.as_str()) {
+                        Wrap::Repeat
+                    } else {
+                        Wrap::Clamp
+                    };
+                    let texture = add_texture(scene, image::load(self.beside_this(Path::new(name), pointer)?)?, wrap);
                     let number = Value::Integer(texture as i64);
                     // A matcap has no transform: its texture is the number itself.
                     *value = if parent == "matcap" {
@@ -381,12 +390,25 @@ impl LookFile {
 }
 
 /// Keys that hold a texture.
-const TEXTURE_KEYS: [&str; 6] = ["texture", "shade_texture", "shift_texture", "mask", "width_mask", "map"];
+const TEXTURE_KEYS: [&str; 11] = [
+    "texture",
+    "shade_texture",
+    "shift_texture",
+    "mask",
+    "width_mask",
+    "map",
+    "warm",
+    "cool",
+    "part_ids",
+    "detail_normal",
+    "detail_color",
+];
+/// Those of them that repeat.
+const REPEATED_KEYS: [&str; 2] = ["detail_normal", "detail_color"];
 
-fn add_texture(scene: &mut Scene, image: Image) -> usize {
+fn add_texture(scene: &mut Scene, image: Image, wrap: Wrap) -> usize {
     scene.images.push(image);
-    // Highlights that move out of their map must not come in on the other side; skins and clothes stay within.
-    let sampler = Sampler { wrap_u: Wrap::Clamp, wrap_v: Wrap::Clamp, ..Sampler::default() };
+    let sampler = Sampler { wrap_u: wrap, wrap_v: wrap, ..Sampler::default() };
     scene.textures.push(Texture { image: scene.images.len() - 1, sampler });
     scene.textures.len() - 1
 }
@@ -401,6 +423,7 @@ fn lights(section: &LightSection) -> Lights {
         },
         ambient: Ambient::uniform(LinearRgb(section.ambient)),
         punctual: Vec::new(),
+        coolness: section.coolness,
     }
 }
 
@@ -414,7 +437,18 @@ fn role_name(role: Role) -> String {
 
 /// What looks add to a material, without its textures.
 fn look_sections(material: &crate::material::Material) -> Table {
-    let kept = ["face_shadow", "transition", "face_paint", "bangs_shadow", "highlight", "layer", "depth_rim"];
+    let kept = [
+        "face_shadow",
+        "transition",
+        "shade_ramp",
+        "light_response",
+        "fur_detail",
+        "face_paint",
+        "bangs_shadow",
+        "highlight",
+        "layer",
+        "depth_rim",
+    ];
     let mut table = table_of(material).unwrap_or_default();
     table.retain(|key, _| kept.contains(&key));
     strip_textures(&mut table);

@@ -1,31 +1,39 @@
 //! What a surface looks like: plain sections with public fields. MToon 1.0 maps onto it without loss.
 
 mod alpha;
+mod authored;
 mod bangs_shadow;
 mod base;
 mod depth_rim;
 mod face_paint;
 mod face_shadow;
+mod fur_detail;
 mod highlight;
 mod layer;
+mod light_response;
 mod matcap;
 mod outline;
 mod rim;
+mod shade_ramp;
 mod toon;
 mod transition;
 mod uv_animation;
 
 pub use alpha::{Alpha, AlphaMode};
+pub use authored::Authored;
 pub use bangs_shadow::BangsShadow;
 pub use base::{Base, Emission, NormalMap, TextureRef, UvTransform};
 pub use depth_rim::DepthRim;
 pub use face_paint::FacePaint;
 pub use face_shadow::{AngleMapping, FaceShadow};
+pub use fur_detail::FurDetail;
 pub use highlight::Highlight;
 pub use layer::Layer;
+pub use light_response::LightResponse;
 pub use matcap::Matcap;
-pub use outline::{Outline, OutlineWidth};
+pub use outline::{Outline, OutlineTint, OutlineWidth, PartColors, TintSource};
 pub use rim::Rim;
+pub use shade_ramp::{MAX_PARTS, RampMaps, ShadeRamp};
 pub use toon::{Shading, Toon};
 pub use transition::Transition;
 pub use uv_animation::UvAnimation;
@@ -58,17 +66,20 @@ pub struct Material {
     pub face_shadow: Option<FaceShadow>,
     /// Tint of light that is about to turn into shade. Default: none.
     pub transition: Option<Transition>,
+    /// Painted steps from shade to light; takes the place of the border and of `transition`. Default: none.
+    pub shade_ramp: Option<ShadeRamp>,
+    /// Bounds of the light that is taken. Default: none.
+    pub light_response: Option<LightResponse>,
+    /// Painted fur. Default: none.
+    pub fur_detail: Option<FurDetail>,
     /// Blush and lines. Default: none.
     pub face_paint: Option<FacePaint>,
     /// Shadow of bangs and of what else stands before the face. Default: none.
     pub bangs_shadow: Option<BangsShadow>,
     /// Painted highlight that moves. Default: none.
     pub highlight: Option<Highlight>,
-    /// A highlight that the file carries for looks that use one (`extras.hikage.highlightBand` or `noseLipHighlight`).
-    /// Default: none.
-    pub authored_highlight: Option<TextureRef>,
-    /// The same for blush and lines (`extras.hikage.facePaint`). Default: none.
-    pub authored_face_paint: Option<TextureRef>,
+    /// What the file carries for looks that use it.
+    pub authored: Authored,
     /// Place in a stack of cards. Default: none.
     pub layer: Option<Layer>,
     /// A picture of light looked up by the view-space normal. Default: none.
@@ -79,6 +90,14 @@ pub struct Material {
     pub depth_rim: Option<DepthRim>,
     /// Line around the shape. Default: none.
     pub outline: Option<Outline>,
+}
+
+impl Material {
+    /// The map that tells its parts apart; ramps and lines share one.
+    pub(crate) fn part_ids(&self) -> Option<TextureRef> {
+        let of_ramp = self.shade_ramp.and_then(|r| r.maps?.part_ids);
+        of_ramp.or_else(|| Some(self.outline?.tint?.parts?.part_ids))
+    }
 }
 
 /// The description that a [`Material`] was made from.

@@ -405,7 +405,10 @@ impl Layouts {
                     multisampled: false,
                 },
             ));
-            entries.push(entry(2 + 2 * slot, stages, wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering)));
+            if slot < upload::SAMPLER_SLOTS as u32 {
+                let ty = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering);
+                entries.push(entry(2 + 2 * slot, stages, ty));
+            }
         }
         let material = gpu
             .device

@@ -4,7 +4,8 @@ use bytemuck::{Pod, Zeroable};
 use glam::{Mat4, Vec3};
 
 use crate::{
-    material::{AngleMapping, Material, OutlineWidth, Shading, TextureRef, UvTransform},
+    color::hue_saturation,
+    material::{AngleMapping, MAX_PARTS, Material, OutlineWidth, Shading, TextureRef, UvTransform},
     render::{View, pass::bangs_shadow::BangsMap},
     scene::{EyesThrough, MAX_PUNCTUAL_LIGHTS},
     sdf::{FaceMap, MAX_PITCHES},
@@ -40,7 +41,7 @@ pub struct FrameUniform {
     pub ambient_sky: [f32; 3],
     pub near: f32,
     pub ambient_ground: [f32; 3],
-    pub padding_ground: f32,
+    pub coolness: f32,
     pub punctual: [PunctualLightUniform; MAX_PUNCTUAL_LIGHTS],
 }
 
@@ -112,6 +113,26 @@ pub struct MaterialUniform {
     pub highlight_light: f32,
     pub highlight_view: f32,
     pub padding_highlight: f32,
+    pub ramp_terminator: [f32; 3],
+    pub ramp_v: f32,
+    pub ramp_edges: [f32; 4],
+    pub ramp_part_v: [f32; MAX_PARTS],
+    pub shade_shift_warm: [[f32; 4]; 3],
+    pub shade_shift_cool: [[f32; 4]; 3],
+    pub light_bounds: [f32; 2],
+    pub light_monochrome: f32,
+    pub fur_softness: f32,
+    pub fur_shares: [f32; 3],
+    pub fur_normal_scale: f32,
+    pub fur_terminator: [f32; 2],
+    pub fur_blur: f32,
+    pub outline_gamma: f32,
+    pub outline_tint: [f32; 3],
+    pub outline_push: f32,
+    pub outline_bounds: [f32; 2],
+    pub padding_outline: [f32; 2],
+    pub outline_shift: [[f32; 4]; 3],
+    pub outline_parts: [[f32; 4]; MAX_PARTS],
     pub base_uv: UvTransformUniform,
     pub shade_uv: UvTransformUniform,
     pub shift_uv: UvTransformUniform,
@@ -122,6 +143,9 @@ pub struct MaterialUniform {
     pub animation_mask_uv: UvTransformUniform,
     pub highlight_uv: UvTransformUniform,
     pub face_paint_uv: UvTransformUniform,
+    pub detail_color_uv: UvTransformUniform,
+    pub detail_normal_uv: UvTransformUniform,
+    pub part_ids_uv: UvTransformUniform,
 }
 
 /// `Character` of `wgsl/bind/character.wgsl`.
@@ -240,7 +264,7 @@ impl FrameUniform {
             ambient_sky: lights.ambient.sky.0,
             near: camera.near,
             ambient_ground: lights.ambient.ground.0,
-            padding_ground: 0.0,
+            coolness: lights.coolness(),
             punctual,
         }
     }
@@ -274,6 +298,19 @@ impl MaterialUniform {
         let paint = material.face_paint.unwrap_or_default();
         let layer = material.layer.unwrap_or_default();
         let rim = material.depth_rim.unwrap_or_default();
+        let ramp = material.shade_ramp.unwrap_or_default();
+        let maps = ramp.maps.unwrap_or_default();
+        let row_v = |row: u32| {
+            let rows = maps.rows.max(1);
+            (row.min(rows - 1) as f32 + 0.5) / rows as f32
+        };
+        let columns =
+            |hue_rad: f32, saturation: f32| hue_saturation(hue_rad, saturation).map(|[x, y, z]| [x, y, z, 0.0]);
+        let shift = |set: usize| columns(ramp.shade_hue_rad[set], ramp.shade_saturation[set]);
+        let tint = outline.tint.unwrap_or_default();
+        let parts = tint.parts.unwrap_or_default();
+        let response = material.light_response.unwrap_or_default();
+        let fur = material.fur_detail.unwrap_or_default();
         let pitches = face_maps.get(face.map).map_or([0.0].as_slice(), |m| m.pitches_rad.as_slice());
         let scaled = |color: [f32; 3], by: f32| color.map(|c| c * by);
         let cutoff = match material.alpha.mode {
@@ -310,7 +347,7 @@ impl MaterialUniform {
             face_pitch_count: pitches.len().clamp(1, MAX_PITCHES) as u32,
             layer_pull: layer.index.clamp(-8, 8) as f32 * LAYER_STEP_M,
             stay_lit: layer.stay_lit,
-            transition_width: transition.width.max(1e-3),
+            transition_width: material.shade_ramp.map_or(transition.width, |r| r.width).max(1e-3),
             transition_color: transition.color,
             transition_strength: transition.strength,
             blush_color: paint.blush_color,
@@ -340,6 +377,26 @@ impl MaterialUniform {
             highlight_light: highlight.light_v,
             highlight_view: highlight.view_v,
             padding_highlight: 0.0,
+            ramp_terminator: ramp.terminator_color,
+            ramp_v: row_v(maps.row),
+            ramp_edges: ramp.edges,
+            ramp_part_v: maps.part_rows.map(row_v),
+            shade_shift_warm: shift(0),
+            shade_shift_cool: shift(1),
+            light_bounds: [response.min, response.max],
+            light_monochrome: response.monochrome,
+            fur_softness: fur.softness.clamp(1e-4, ((fur.terminator[1] - fur.terminator[0]) * 0.5).max(1e-4)),
+            fur_shares: fur.shares,
+            fur_normal_scale: fur.normal_scale,
+            fur_terminator: fur.terminator,
+            fur_blur: fur.blur_levels,
+            outline_gamma: tint.gamma,
+            outline_tint: tint.factor,
+            outline_push: outline.push_m,
+            outline_bounds: outline.clamp_px.unwrap_or_default(),
+            padding_outline: [0.0; 2],
+            outline_shift: columns(tint.hue_rad, tint.saturation),
+            outline_parts: parts.colors.map(|[r, g, b]| [r, g, b, 1.0]),
             base_uv: UvTransformUniform::new(material.base.texture),
             shade_uv: UvTransformUniform::new(toon.shade_texture),
             shift_uv: UvTransformUniform::new(toon.shift_texture),
@@ -350,6 +407,9 @@ impl MaterialUniform {
             animation_mask_uv: UvTransformUniform::new(material.uv_animation.mask),
             highlight_uv: UvTransformUniform::new(Some(highlight.map)),
             face_paint_uv: UvTransformUniform::new(Some(paint.map)),
+            detail_color_uv: UvTransformUniform::new(fur.detail_color),
+            detail_normal_uv: UvTransformUniform::new(Some(fur.detail_normal)),
+            part_ids_uv: UvTransformUniform::new(material.part_ids()),
         }
     }
 }

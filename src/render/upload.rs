@@ -223,8 +223,10 @@ impl Renderer {
         for (slot, (view, sampler)) in (0..).zip(bound) {
             let binding = 1 + 2 * slot;
             entries.push(wgpu::BindGroupEntry { binding, resource: wgpu::BindingResource::TextureView(view) });
-            entries
-                .push(wgpu::BindGroupEntry { binding: binding + 1, resource: wgpu::BindingResource::Sampler(sampler) });
+            if (slot as usize) < SAMPLER_SLOTS {
+                let resource = wgpu::BindingResource::Sampler(sampler);
+                entries.push(wgpu::BindGroupEntry { binding: binding + 1, resource });
+            }
         }
         self.gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("material"),
@@ -396,9 +398,12 @@ pub(crate) fn instance_buffer(gpu: &Gpu, count: usize) -> wgpu::Buffer {
     })
 }
 
-/// Textures of a material, and the one of them that is an array.
-pub(crate) const TEXTURE_SLOTS: usize = 12;
+/// Textures of a material, the one of them that is an array, and the one from which on they have no samplers of their own:
+/// some devices have no more than 16.
+pub(crate) const TEXTURE_SLOTS: usize = 17;
 pub(crate) const FACE_SLOT: usize = 9;
+pub(crate) const SAMPLER_SLOTS: usize = 13;
+const DETAIL_SLOT: usize = 12;
 
 /// Views and samplers of a material's textures.
 fn material_textures(
@@ -407,10 +412,14 @@ fn material_textures(
     textures: &TextureSet,
 ) -> Vec<(wgpu::TextureView, wgpu::Sampler)> {
     let bound = texture_slots(material).into_iter().enumerate().map(|(slot, (texture, encoding))| {
-        let (view, sampler) = if slot == FACE_SLOT {
-            textures.face(material.face_shadow.map(|f| f.map))
-        } else {
-            textures.get(&scene.textures, texture, encoding)
+        let (view, sampler) = match (slot, material.fur_detail) {
+            (FACE_SLOT, _) => textures.face(material.face_shadow.map(|f| f.map)),
+            // One sampler serves both kinds of detail.
+            (DETAIL_SLOT, Some(fur)) => {
+                let normals = textures.get(&scene.textures, Some(fur.detail_normal.texture), Encoding::Linear);
+                (textures.get(&scene.textures, texture, encoding).0, normals.1)
+            }
+            _ => textures.get(&scene.textures, texture, encoding),
         };
         (view.clone(), sampler.clone())
     });
@@ -424,6 +433,7 @@ fn texture_slots(material: &Material) -> [(Option<usize>, Encoding); TEXTURE_SLO
         Shading::Toon(toon) => (of(toon.shade_texture), of(toon.shift_texture)),
         Shading::Unlit => (None, None),
     };
+    let ramps = material.shade_ramp.and_then(|r| r.maps);
     [
         (of(material.base.texture), Encoding::Srgb),
         (shade, Encoding::Srgb),
@@ -437,6 +447,11 @@ fn texture_slots(material: &Material) -> [(Option<usize>, Encoding); TEXTURE_SLO
         (None, Encoding::Linear),
         (material.highlight.map(|h| h.map.texture), Encoding::Linear),
         (material.face_paint.map(|p| p.map.texture), Encoding::Linear),
+        (material.fur_detail.and_then(|f| of(f.detail_color)), Encoding::Srgb),
+        (material.fur_detail.map(|f| f.detail_normal.texture), Encoding::Linear),
+        (ramps.map(|r| r.warm.texture), Encoding::Srgb),
+        (ramps.map(|r| r.cool.texture), Encoding::Srgb),
+        (of(material.part_ids()), Encoding::Linear),
     ]
 }
 

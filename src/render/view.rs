@@ -96,6 +96,10 @@ pub enum Channel {
     DepthRim,
     /// How much of eyes and brows is seen through hair.
     EyesThrough,
+    /// Place on the ramp from shade to light; black where there is none.
+    ShadeRamp,
+    /// Regions of painted fur: light in red, terminator in green, shade in blue.
+    Fur,
 }
 
 impl Channel {
@@ -113,6 +117,8 @@ impl Channel {
         Self::Layer,
         Self::DepthRim,
         Self::EyesThrough,
+        Self::ShadeRamp,
+        Self::Fur,
     ];
 
     /// Its name: `final`, `normal`, `depth`, `part-id`, `face-shadow` and so on.
@@ -131,6 +137,8 @@ impl Channel {
             Self::Layer => "layer",
             Self::DepthRim => "depth-rim",
             Self::EyesThrough => "eyes-through",
+            Self::ShadeRamp => "shade-ramp",
+            Self::Fur => "fur",
         }
     }
 
@@ -157,6 +165,8 @@ impl Channel {
             Self::Layer => 6,
             Self::DepthRim => 7,
             Self::EyesThrough => 8,
+            Self::ShadeRamp => 9,
+            Self::Fur => 10,
         })
     }
 

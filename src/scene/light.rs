@@ -18,6 +18,19 @@ pub struct Lights {
     ///
     /// All lights are accumulated before the toon band is cut, so that many lights still give one clean edge.
     pub punctual: Vec<PunctualLight>,
+    /// Which of their two sets materials with a [`ShadeRamp`](crate::material::ShadeRamp) show: 0 warm, 1 cool, as a time of
+    /// day sets it. Range 0..1. Default: `None`, by the colour of the key light.
+    pub coolness: Option<f32>,
+}
+
+impl Lights {
+    /// 0 for warm light, 1 for cool light: 1/2 for white, and by the step from red to blue else.
+    #[must_use]
+    pub fn coolness(&self) -> f32 {
+        let [r, g, b] = self.directional.color.0;
+        let by_color = 0.5 + 1.5 * (b - r) / r.max(g).max(b).max(1e-6);
+        self.coolness.unwrap_or(by_color).clamp(0.0, 1.0)
+    }
 }
 
 /// Light from far away.

@@ -135,7 +135,7 @@ pub fn view(size: u32, distance: f32) -> View {
                 ..DirectionalLight::default()
             },
             ambient: Ambient::uniform(LinearRgb::BLACK),
-            punctual: Vec::new(),
+            ..Lights::default()
         },
         background: Background::Color(Srgb([0x80; 3])),
         ..View::default()

@@ -28,6 +28,8 @@ struct Frame {
     // Depth is near / distance.
     near: f32,
     ambient_ground: vec3f,
+    // 0 warm, 1 cool.
+    coolness: f32,
     punctual: array<PunctualLight, 4>,
 }
 

@@ -68,6 +68,31 @@ struct Material {
     highlight_turn: f32,
     highlight_light: f32,
     highlight_view: f32,
+    ramp_terminator: vec3f,
+    // Middle of the material's row.
+    ramp_v: f32,
+    ramp_edges: vec4f,
+    // Those of the parts.
+    ramp_part_v: array<vec4f, 2>,
+    // What turns hue and saturation of shade, for warm and for cool light.
+    shade_shift_warm: mat3x3f,
+    shade_shift_cool: mat3x3f,
+    // Least and greatest luminance.
+    light_bounds: vec2f,
+    light_monochrome: f32,
+    fur_softness: f32,
+    fur_shares: vec3f,
+    fur_normal_scale: f32,
+    fur_terminator: vec2f,
+    // Mip levels.
+    fur_blur: f32,
+    outline_gamma: f32,
+    outline_tint: vec3f,
+    // Metres away from the viewer.
+    outline_push: f32,
+    outline_bounds: vec2f,
+    outline_shift: mat3x3f,
+    outline_parts: array<vec4f, 8>,
     base_uv: UvTransform,
     shade_uv: UvTransform,
     shift_uv: UvTransform,
@@ -78,6 +103,9 @@ struct Material {
     animation_mask_uv: UvTransform,
     highlight_uv: UvTransform,
     face_paint_uv: UvTransform,
+    detail_color_uv: UvTransform,
+    detail_normal_uv: UvTransform,
+    part_ids_uv: UvTransform,
 }
 
 @group(2) @binding(0) var<uniform> material: Material;
@@ -105,3 +133,10 @@ struct Material {
 @group(2) @binding(22) var highlight_sampler: sampler;
 @group(2) @binding(23) var face_paint_texture: texture_2d<f32>;
 @group(2) @binding(24) var face_paint_sampler: sampler;
+@group(2) @binding(25) var detail_color_texture: texture_2d<f32>;
+// Of the detail normals, too: metal has no more than 16 samplers.
+@group(2) @binding(26) var detail_sampler: sampler;
+@group(2) @binding(27) var detail_normal_texture: texture_2d<f32>;
+@group(2) @binding(29) var ramp_warm_texture: texture_2d<f32>;
+@group(2) @binding(31) var ramp_cool_texture: texture_2d<f32>;
+@group(2) @binding(33) var part_ids_texture: texture_2d<f32>;

@@ -7,17 +7,21 @@ import package::bind::material::{
     UvTransform, material, base_texture, base_sampler, shade_texture, shade_sampler, shift_texture, shift_sampler,
     normal_texture, normal_sampler, emission_texture, emission_sampler, matcap_texture, matcap_sampler,
     rim_mask_texture, rim_mask_sampler, animation_mask_texture, animation_mask_sampler, highlight_texture, highlight_sampler, face_paint_texture, face_paint_sampler,
+    face_sampler, detail_color_texture, detail_sampler, detail_normal_texture, ramp_warm_texture, ramp_cool_texture,
+    part_ids_texture,
 };
-import package::lib::bangs::bangs_factor;
+import package::lib::bangs::bangs_share;
 import package::lib::depth_rim::{depth_rim_offset, depth_rim_resolved, depth_rim_side, depth_rim_step};
 import package::lib::face_paint::face_paint_factor;
 import package::lib::face_shadow::face_shading;
+import package::lib::fur::{fur_color, fur_masks};
 import package::lib::highlight::highlight_broken;
-import package::lib::light::{accumulated_n_dot_l, distance_attenuation, luminance, spot_attenuation};
+import package::lib::light::{accumulated_n_dot_l, distance_attenuation, light_response, luminance, spot_attenuation};
 import package::lib::mtoon::{
     mtoon_animate_uv, mtoon_direct, mtoon_gi, mtoon_matcap_uv, mtoon_parametric_rim, mtoon_rim, mtoon_shading,
 };
 import package::lib::normal::{normal_from_map, normalize_or};
+import package::lib::shade_ramp::ramp_bands;
 import package::lib::transition::transition_tint;
 
 // Parts of a surface; the entry files fill it from their overrides.
@@ -51,6 +55,13 @@ struct SurfaceOptions {
     highlight_apart: bool,
     highlight_breakup: bool,
     layered: bool,
+    shade_ramp: bool,
+    ramp_maps: bool,
+    ramp_parts: bool,
+    shade_shift: bool,
+    light_response: bool,
+    fur_detail: bool,
+    fur_color: bool,
     depth_rim: bool,
     channel: u32,
 }
@@ -64,6 +75,8 @@ const CHANNEL_BANGS_SHADOW: u32 = 5u;
 const CHANNEL_LAYER: u32 = 6u;
 const CHANNEL_DEPTH_RIM: u32 = 7u;
 const CHANNEL_EYES_THROUGH: u32 = 8u;
+const CHANNEL_SHADE_RAMP: u32 = 9u;
+const CHANNEL_FUR: u32 = 10u;
 
 struct SurfaceInput {
     // Pixels from the top left, and depth.
@@ -137,11 +150,30 @@ fn ambient(n_y: f32) -> vec3f {
     return mix(frame.ambient_ground, frame.ambient_sky, n_y * 0.5 + 0.5);
 }
 
+struct Arriving {
+    // Unit.
+    to_light: vec3f,
+    radiance: vec3f,
+}
+
+// Light of a point or spot light at a place.
+fn punctual_light(i: u32, position: vec3f) -> Arriving {
+    let to_light = frame.punctual[i].position - position;
+    let distance_sq = dot(to_light, to_light);
+    let l = to_light * inverseSqrt(max(distance_sq, 1e-8));
+    let radiance = frame.punctual[i].color
+        * distance_attenuation(distance_sq, frame.punctual[i].range)
+        * spot_attenuation(
+            dot(-l, frame.punctual[i].direction), frame.punctual[i].spot_scale, frame.punctual[i].spot_offset
+        );
+    return Arriving(l, radiance);
+}
+
 // Shaded colour (linear, straight), and alpha or the coverage of a masked surface. `in.normal` need not be unit; it faces
 // the viewer.
 fn shade_surface(options: SurfaceOptions, in: SurfaceInput) -> vec4f {
     let uv = animated_uv(options, in.uv);
-    let texel = surface_texel(options, in, uv);
+    var texel = surface_texel(options, in, uv);
     var base = material.base_color * texel;
     if options.alpha_coverage {
         // The cut as a ramp one pixel wide, but never so wide that alpha 1 is not whole or alpha 0 not open. 1e-4: where
@@ -162,25 +194,20 @@ fn shade_surface(options: SurfaceOptions, in: SurfaceInput) -> vec4f {
     }
 
     var normal = normalize(in.normal);
-    if options.normal_map {
-        let texel = textureSample(
-            normal_texture, normal_sampler, texture_uv(options, uv, material.normal_uv)
-        ).xyz;
+    if options.normal_map || options.fur_detail {
+        var bent: vec3f;
+        var scale = material.normal_scale;
+        if options.fur_detail {
+            let at = texture_uv(options, uv, material.detail_normal_uv);
+            bent = textureSample(detail_normal_texture, detail_sampler, at).xyz;
+            scale = material.fur_normal_scale;
+        } else {
+            bent = textureSample(normal_texture, normal_sampler, texture_uv(options, uv, material.normal_uv)).xyz;
+        }
         let tangent = normalize_or(in.tangent.xyz - normal * dot(normal, in.tangent.xyz), vec3f(0.0));
-        normal = normal_from_map(texel, material.normal_scale, normal, tangent, in.tangent.w);
+        normal = normal_from_map(bent, scale, normal, tangent, in.tangent.w);
     }
 
-    var shade = material.shade_color;
-    if options.shade_is_base {
-        shade *= texel.rgb;
-    } else {
-        if options.shade_texture {
-            shade *= textureSample(shade_texture, shade_sampler, texture_uv(options, uv, material.shade_uv)).rgb;
-        }
-        if options.vertex_color {
-            shade *= in.color.rgb;
-        }
-    }
     var shift = material.shift;
     if options.shift_texture {
         shift += material.shift_texture_scale * textureSample(
@@ -196,29 +223,44 @@ fn shade_surface(options: SurfaceOptions, in: SurfaceInput) -> vec4f {
         var weight = luminance(light);
         var sum = n_dot_l * weight;
         for (var i = 0u; i < frame.punctual_count; i++) {
-            let to_light = frame.punctual[i].position - in.world_position;
-            let distance_sq = dot(to_light, to_light);
-            let l = to_light * inverseSqrt(max(distance_sq, 1e-8));
-            let radiance = frame.punctual[i].color
-                * distance_attenuation(distance_sq, frame.punctual[i].range)
-                * spot_attenuation(
-                    dot(-l, frame.punctual[i].direction),
-                    frame.punctual[i].spot_scale,
-                    frame.punctual[i].spot_offset
-                );
+            let arriving = punctual_light(i, in.world_position);
+            let radiance = arriving.radiance;
             let w = luminance(radiance);
             light += radiance;
             weight += w;
-            sum += dot(normal, l) * w;
+            sum += dot(normal, arriving.to_light) * w;
         }
         n_dot_l = accumulated_n_dot_l(sum, weight);
         directional = luminance(frame.light_color) / max(weight, 1e-6);
     }
 
+    if options.light_response {
+        light = light_response(light, material.light_bounds.x, material.light_bounds.y, material.light_monochrome);
+    }
+    var fur = vec3f(0.0);
+    if options.fur_detail {
+        fur = fur_masks(n_dot_l, material.fur_terminator, material.fur_softness);
+        var flat_color = texel.rgb;
+        var detail = texel.rgb;
+        if options.fur_color {
+            let at = texture_uv(options, uv, material.detail_color_uv);
+            detail = textureSample(detail_color_texture, detail_sampler, at).rgb;
+        } else if options.base_texture {
+            let at = texture_uv(options, uv, material.base_uv);
+            flat_color = textureSampleBias(base_texture, base_sampler, at, material.fur_blur).rgb;
+            if options.vertex_color {
+                flat_color *= in.color.rgb;
+            }
+        }
+        texel = vec4f(fur_color(fur, material.fur_shares, flat_color, detail), texel.a);
+        base = vec4f(material.base_color.rgb * texel.rgb, base.a);
+    }
+    var shade = surface_shade(options, texel, uv, in.color);
     var shading = mtoon_shading(n_dot_l, shift, material.toony);
-    // The same with the border of the transition.
+    // The same with the border of the transition, or of the ramp.
+    let is_soft = options.transition || options.shade_ramp;
     var soft = 1.0;
-    if options.transition {
+    if is_soft {
         soft = smoothstep(-material.transition_width, material.transition_width, n_dot_l + shift);
     }
     // Share of the surface that is face: neck and body take no shadow of bangs.
@@ -228,12 +270,13 @@ fn shade_surface(options: SurfaceOptions, in: SurfaceInput) -> vec4f {
         let face = face_shading_at(parts, in.uv.xy, in.face_light);
         of_face = 1.0 - face.region;
         shading = face_shading(shading, face.lit, face.region, face.strength * directional);
-        if options.transition {
+        if is_soft {
             soft = face_shading(soft, face.soft, face.region, face.strength * directional);
         }
     }
     if options.layered {
         shading = max(shading, material.stay_lit);
+        soft = max(soft, material.stay_lit);
     }
     let gi = mtoon_gi(ambient(normal.y), frame.ambient_sky, frame.ambient_ground, material.gi_equalization);
     var paint = vec3f(1.0);
@@ -252,17 +295,25 @@ fn shade_surface(options: SurfaceOptions, in: SurfaceInput) -> vec4f {
     if options.transition {
         tint = transition_tint(soft, material.transition_color, material.transition_strength);
     }
-    var direct = mtoon_direct(base.rgb * tint, shade, shading, light);
     var bangs = 1.0;
+    // Share of shadow that is received.
+    var received = 0.0;
     if options.bangs_shadow {
         // What is in shade already gets no darker.
-        let share = shading * directional * of_face;
+        let share = select(shading, 1.0, options.shade_ramp) * directional * of_face;
         bangs = bangs_lit(in.bangs, BANGS_LAYER, share > 0.0);
         if options.lid_shadow {
             bangs = min(bangs, bangs_lit(in.bangs, LIDS_LAYER, share > 0.0));
         }
-        let factor = bangs_factor(bangs, material.bangs_edges, material.bangs_strength, material.bangs_color);
-        direct *= mix(vec3f(1.0), factor, share);
+        received = share * bangs_share(bangs, material.bangs_edges, material.bangs_strength);
+    }
+    var direct: vec3f;
+    if options.shade_ramp {
+        soft *= 1.0 - received;
+        direct = ramp_color(options, uv, base.rgb, shade, soft) * light;
+    } else {
+        direct = mtoon_direct(base.rgb * tint, shade, shading, light)
+            * mix(vec3f(1.0), material.bangs_color, received);
     }
     var shine = 0.0;
     if options.highlight {
@@ -334,14 +385,85 @@ fn shade_surface(options: SurfaceOptions, in: SurfaceInput) -> vec4f {
         color += material.depth_rim_color * own * frame.light_color * contour;
     }
     if options.channel != 0u {
-        color = channel_color(options, shading, tint, paint, shine, bangs, contour);
+        color = channel_color(options, shading, tint, paint, shine, bangs, contour, soft, fur);
     }
     return vec4f(color, base.a);
 }
 
+// Number of the part at a place, from 0 on; -1 where the map knows none. The texel itself: numbers are not filtered.
+fn part_at(options: SurfaceOptions, uv: vec4f) -> i32 {
+    let size = vec2f(textureDimensions(part_ids_texture));
+    let at = fract(texture_uv(options, uv, material.part_ids_uv));
+    let part = i32(textureLoad(part_ids_texture, vec2i(at * size), 0).r * 255.0 + 0.5) - 1;
+    return select(-1, part, part < 8);
+}
+
+// Colour of the surface in full light or in full shade, unlit: what a line round it is mixed from.
+fn line_source(options: SurfaceOptions, in_uv: vec4f, color: vec4f, in_shade: bool) -> vec3f {
+    let uv = animated_uv(options, in_uv);
+    let texel = surface_texel(options, texel_input(in_uv, color), uv);
+    let lit = material.base_color.rgb * texel.rgb;
+    if !in_shade || options.unlit {
+        return lit;
+    }
+    let shade = surface_shade(options, texel, uv, color);
+    if options.shade_ramp {
+        return ramp_color(options, uv, lit, shade, 0.0);
+    }
+    return shade;
+}
+
+// Colour in shade.
+fn surface_shade(options: SurfaceOptions, texel: vec4f, uv: vec4f, color: vec4f) -> vec3f {
+    var shade = material.shade_color;
+    if options.shade_is_base {
+        return shade * texel.rgb;
+    }
+    if options.shade_texture {
+        shade *= textureSample(shade_texture, shade_sampler, texture_uv(options, uv, material.shade_uv)).rgb;
+    }
+    if options.vertex_color {
+        shade *= color.rgb;
+    }
+    return shade;
+}
+
+// Light that falls on a place from anywhere, at most 1: a line takes it whole, whatever its own direction.
+fn arriving_light(position: vec3f) -> vec3f {
+    var light = frame.light_color + 0.5 * (frame.ambient_sky + frame.ambient_ground);
+    for (var i = 0u; i < frame.punctual_count; i++) {
+        light += punctual_light(i, position).radiance;
+    }
+    return min(light, vec3f(1.0));
+}
+
+// Lit colour at a place of the ramp between full shade (0) and full light (1).
+fn ramp_color(options: SurfaceOptions, uv: vec4f, lit: vec3f, shade: vec3f, place: f32) -> vec3f {
+    if options.ramp_maps {
+        var v = material.ramp_v;
+        if options.ramp_parts {
+            let part = part_at(options, uv);
+            if part >= 0 {
+                v = material.ramp_part_v[part / 4][part % 4];
+            }
+        }
+        let at = vec2f(place, v);
+        let warm = textureSampleLevel(ramp_warm_texture, face_sampler, at, 0.0).rgb;
+        let cool = textureSampleLevel(ramp_cool_texture, face_sampler, at, 0.0).rgb;
+        return lit * mix(warm, cool, frame.coolness);
+    }
+    var dark = shade;
+    if options.shade_shift {
+        // Colours that a turn takes out of the gamut are cut.
+        dark = max(mix(material.shade_shift_warm * shade, material.shade_shift_cool * shade, frame.coolness), vec3f(0.0));
+    }
+    return ramp_bands(lit, dark, lit * material.ramp_terminator, material.ramp_edges, place);
+}
+
 // What one of the debug channels shows.
 fn channel_color(
-    options: SurfaceOptions, shading: f32, tint: vec3f, paint: vec3f, shine: f32, bangs: f32, contour: f32
+    options: SurfaceOptions, shading: f32, tint: vec3f, paint: vec3f, shine: f32, bangs: f32, contour: f32,
+    place: f32, fur: vec3f
 ) -> vec3f {
     switch options.channel {
         case CHANNEL_FACE_SHADOW { return vec3f(shading) * select(vec3f(0.25), vec3f(1.0), options.face_shadow); }
@@ -351,6 +473,8 @@ fn channel_color(
         case CHANNEL_BANGS_SHADOW { return select(vec3f(0.0), vec3f(bangs), options.bangs_shadow); }
         case CHANNEL_LAYER { return layer_color(options); }
         case CHANNEL_DEPTH_RIM { return vec3f(contour); }
+        case CHANNEL_SHADE_RAMP { return select(vec3f(0.0), vec3f(place), options.shade_ramp); }
+        case CHANNEL_FUR { return fur; }
         default { return vec3f(0.0); }
     }
 }

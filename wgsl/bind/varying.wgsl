@@ -23,7 +23,7 @@ struct Varying {
 fn surface_varying(options: SurfaceOptions, v: VertexInput) -> Varying {
     let position = world_position(v, v.position);
     var tangent = vec4f(0.0);
-    if options.normal_map {
+    if options.normal_map || options.fur_detail {
         tangent = vec4f(world_direction(v, v.frame.y), bitangent_sign(v.frame.y));
     }
     var face_light = vec4f(0.0);

@@ -9,10 +9,9 @@ fn esm_taps(d: vec4f, z: f32, c: f32, bias: f32) -> vec4f {
     return exp(min(vec4f(0.0), c * (d - z + bias)));
 }
 
-// What lit colour is multiplied by where the share `lit` of light arrives. 1e-6: equal edges are a step.
-fn bangs_factor(lit: f32, edges: vec2f, strength: f32, color: vec3f) -> vec3f {
-    let shadow = 1.0 - smoothstep(edges.x, max(edges.y, edges.x + 1e-6), lit);
-    return mix(vec3f(1.0), color, strength * shadow);
+// Share of shadow where the share `lit` of light arrives. 1e-6: equal edges are a step.
+fn bangs_share(lit: f32, edges: vec2f, strength: f32) -> f32 {
+    return strength * (1.0 - smoothstep(edges.x, max(edges.y, edges.x + 1e-6), lit));
 }
 
 // Taps along one axis: a box three texels wide lies on four of them.

@@ -27,3 +27,12 @@ fn spot_attenuation(cos_angle: f32, scale: f32, offset: f32) -> f32 {
 fn accumulated_n_dot_l(weighted_sum: f32, weight: f32) -> f32 {
     return weighted_sum / max(weight, 1e-6);
 }
+
+// Light as a material takes it: its luminance between two bounds, and its colour as far as `monochrome` (0..1) leaves it.
+// 1e-6: black light has no colour, its lower bound is grey.
+fn light_response(light: vec3f, low: f32, high: f32, monochrome: f32) -> vec3f {
+    let y = luminance(light);
+    let bounded = clamp(y, low, max(low, high));
+    let colored = select(vec3f(bounded), light * (bounded / max(y, 1e-6)), y > 1e-6);
+    return mix(colored, vec3f(bounded), monochrome);
+}

@@ -143,6 +143,13 @@ pub(crate) struct SurfaceFlags {
     pub highlight_apart: bool,
     pub highlight_breakup: bool,
     pub layered: bool,
+    pub shade_ramp: bool,
+    pub ramp_maps: bool,
+    pub ramp_parts: bool,
+    pub shade_shift: bool,
+    pub light_response: bool,
+    pub fur_detail: bool,
+    pub fur_color: bool,
     pub depth_rim: bool,
     /// [`Channel::shader_code`](super::Channel::shader_code).
     pub channel: u32,
@@ -171,6 +178,10 @@ impl SurfaceFlags {
         let face_map = material.face_shadow.filter(|_| toon.is_some()).and_then(|f| face_maps.get(f.map));
         let face_paint = material.face_paint.filter(|_| toon.is_some());
         let highlight = material.highlight.filter(|_| toon.is_some());
+        let ramp = material.shade_ramp.filter(|_| toon.is_some());
+        let ramp_maps = ramp.and_then(|r| r.maps);
+        let part_ids = ramp_maps.and_then(|m| m.part_ids);
+        let fur = material.fur_detail.filter(|_| toon.is_some());
         let used = [
             material.base.texture,
             shade_texture,
@@ -182,6 +193,9 @@ impl SurfaceFlags {
             animation_mask,
             highlight.map(|h| h.map),
             face_paint.map(|p| p.map),
+            material.part_ids(),
+            fur.map(|f| f.detail_normal),
+            fur.and_then(|f| f.detail_color),
         ];
         let moved = |t: &TextureRef| t.uv_set != 0 || t.transform != UvTransform::default();
         Self {
@@ -205,7 +219,7 @@ impl SurfaceFlags {
             face_stack: face_map.is_some_and(|m| m.pitches_rad.len() > 1),
             face_back: face_map.is_some_and(|m| !m.back.is_empty()),
             face_masks: face_map.is_some_and(|m| !m.masks.is_empty()),
-            transition: toon.is_some() && material.transition.is_some_and(|t| t.strength > 0.0),
+            transition: toon.is_some() && ramp.is_none() && material.transition.is_some_and(|t| t.strength > 0.0),
             face_paint: face_paint.is_some(),
             bangs_shadow: toon.is_some() && material.bangs_shadow.is_some(),
             lid_shadow: toon.is_some() && material.bangs_shadow.is_some_and(|b| b.lids),
@@ -214,6 +228,13 @@ impl SurfaceFlags {
             highlight_apart: highlight.is_some_and(|h| h.second_strength > 0.0 && h.second_motion != 1.0),
             highlight_breakup: highlight.is_some_and(|h| h.breakup > 0.0),
             layered: material.layer.is_some(),
+            shade_ramp: ramp.is_some(),
+            ramp_maps: ramp_maps.is_some(),
+            ramp_parts: part_ids.is_some(),
+            shade_shift: ramp.is_some_and(|r| r.maps.is_none() && r.shifts_shade()),
+            light_response: toon.is_some() && material.light_response.is_some(),
+            fur_detail: fur.is_some(),
+            fur_color: fur.is_some_and(|f| f.detail_color.is_some()),
             depth_rim: toon.is_some() && material.depth_rim.is_some_and(|r| r.strength > 0.0),
             channel: 0,
         }
@@ -251,6 +272,13 @@ impl SurfaceFlags {
             ("HIGHLIGHT_APART", self.highlight_apart),
             ("HIGHLIGHT_BREAKUP", self.highlight_breakup),
             ("LAYERED", self.layered),
+            ("SHADE_RAMP", self.shade_ramp),
+            ("RAMP_MAPS", self.ramp_maps),
+            ("RAMP_PARTS", self.ramp_parts),
+            ("SHADE_SHIFT", self.shade_shift),
+            ("LIGHT_RESPONSE", self.light_response),
+            ("FUR_DETAIL", self.fur_detail),
+            ("FUR_COLOR", self.fur_color),
             ("DEPTH_RIM", self.depth_rim),
         ]
         .map(|(name, on)| (name, f64::from(u8::from(on))))

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use super::{ColorPipeline, Driven, Mark, SurfaceFlags, color_pipeline, encode_constant};
 use crate::{
     Gpu,
-    material::{AlphaMode, Material, OutlineWidth},
+    material::{AlphaMode, Material, OutlineWidth, TintSource},
     render::{Layouts, Output, draw_list, shaders, upload::GpuScene},
     scene::ColorTarget,
 };
@@ -26,6 +26,12 @@ struct OutlineKey {
     shaded: bool,
     blend: bool,
     write_depth: bool,
+    tint: bool,
+    from_shade: bool,
+    parts: bool,
+    vertex_width: bool,
+    bounds: bool,
+    push: bool,
 }
 
 /// What the pass reads.
@@ -58,7 +64,8 @@ impl OutlinePass {
         let blend = material.alpha.mode == AlphaMode::Blend;
         // Black stays black whatever the light.
         let colored = outline.color != [0.0; 3] || driven.colors.contains(&ColorTarget::OutlineColor);
-        let shaded = outline.lighting_mix > 0.0 && colored || material.alpha.mode != AlphaMode::Opaque;
+        let mixed = outline.tint.is_none() && outline.lighting_mix > 0.0 && colored;
+        let shaded = mixed || material.alpha.mode != AlphaMode::Opaque;
         let mut key = OutlineKey {
             // A line never glows.
             flags: SurfaceFlags { depth_rim: false, ..flags },
@@ -67,8 +74,14 @@ impl OutlinePass {
             shaded,
             blend,
             write_depth: !blend || material.alpha.write_depth,
+            tint: outline.tint.is_some(),
+            from_shade: outline.tint.is_some_and(|t| t.from == TintSource::Shade),
+            parts: outline.tint.is_some_and(|t| t.parts.is_some()),
+            vertex_width: outline.vertex_width,
+            bounds: outline.clamp_px.is_some() && !screen_width,
+            push: outline.push_m > 0.0,
         };
-        if !shaded {
+        if !shaded && !key.tint {
             // A plain colour needs nothing of the surface but the UVs of its mask: fewer pipelines.
             let SurfaceFlags { uv_transforms, uv_animation, uv_animation_mask, .. } = flags;
             key.flags = if key.width_mask {
@@ -86,6 +99,12 @@ impl OutlinePass {
                 ("WIDTH_MASK", flag(key.width_mask)),
                 ("OUTLINE_SHADED", flag(key.shaded)),
                 ("OUTLINE_BLEND", flag(key.blend)),
+                ("OUTLINE_TINT", flag(key.tint)),
+                ("OUTLINE_FROM_SHADE", flag(key.from_shade)),
+                ("OUTLINE_PARTS", flag(key.parts)),
+                ("VERTEX_WIDTH", flag(key.vertex_width)),
+                ("WIDTH_BOUNDS", flag(key.bounds)),
+                ("OUTLINE_PUSH", flag(key.push)),
             ]);
             color_pipeline(
                 gpu,

@@ -112,6 +112,11 @@ pub(crate) fn light(text: &str) -> Result<[f32; 2], String> {
     ])
 }
 
+/// A number from 0 to 1.
+pub(crate) fn share(text: &str) -> Result<f32, String> {
+    number(text, 0.0, 1.0)
+}
+
 /// `NAME=WEIGHT`; a bare name is at full weight.
 pub(crate) fn expression(text: &str) -> Result<(String, f32), String> {
     let (name, weight) = text.rsplit_once('=').unwrap_or((text, "1"));

@@ -52,6 +52,9 @@ pub(crate) struct Args {
     /// Direction of the light: 0,0 from the front, positive from the picture's right and from above.
     #[arg(long, value_name = "YAW,PITCH", allow_hyphen_values = true, value_parser = args::light)]
     light: Option<[f32; 2]>,
+    /// Which set of shade ramps is shown: 0 warm, 1 cool [default: by the light's colour].
+    #[arg(long, value_name = "0..1", value_parser = args::share)]
+    coolness: Option<f32>,
     /// Background: none (transparent) or #RRGGBB [default: #808080].
     #[arg(long, value_name = "COLOR", value_parser = args::background)]
     background: Option<Background>,
@@ -210,6 +213,7 @@ fn view(args: &Args, shot: &Shot, scene: &Scene, pose: &Pose) -> Result<View, Fa
     if let Some([yaw, pitch]) = args.light.map(|angles| angles.map(f32::to_radians)) {
         view.lights.directional.to_light = Vec3::new(yaw.sin() * pitch.cos(), pitch.sin(), yaw.cos() * pitch.cos());
     }
+    view.lights.coolness = args.coolness.or(view.lights.coolness);
     if let Some(background) = args.background {
         view.background = background;
     }

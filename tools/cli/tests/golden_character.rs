@@ -166,7 +166,8 @@ fn the_anime_look_is_as_before() {
     studio.light_deg = [-60.0, 25.0];
     for (name, channel) in [
         ("face-shadow", Channel::FaceShadow),
-        ("transition", Channel::Transition),
+        ("shade-ramp", Channel::ShadeRamp),
+        ("fur", Channel::Fur),
         ("face-paint", Channel::FacePaint),
         ("highlight", Channel::Highlight),
         ("bangs-shadow", Channel::BangsShadow),
@@ -175,7 +176,7 @@ fn the_anime_look_is_as_before() {
         ("eyes-through", Channel::EyesThrough),
     ] {
         studio.channel = channel;
-        let framing = if matches!(channel, Channel::Highlight | Channel::DepthRim) {
+        let framing = if matches!(channel, Channel::Highlight | Channel::DepthRim | Channel::Fur) {
             Framing::Portrait
         } else {
             Framing::Face

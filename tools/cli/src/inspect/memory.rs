@@ -28,8 +28,8 @@ pub(super) fn texture_uses(material: &Material) -> Vec<(&'static str, usize, Use
     add("rim mask", material.rim.mask.map(|t| t.texture), Use::Srgb);
     add("outline width", material.outline.and_then(|o| o.width_mask).map(|t| t.texture), Use::Linear);
     add("uv mask", material.uv_animation.mask.map(|t| t.texture), Use::Linear);
-    add("highlight", material.authored_highlight.map(|t| t.texture), Use::Linear);
-    add("face paint", material.authored_face_paint.map(|t| t.texture), Use::Linear);
+    add("highlight", material.authored.highlight.map(|t| t.texture), Use::Linear);
+    add("face paint", material.authored.face_paint.map(|t| t.texture), Use::Linear);
     uses
 }
 
