@@ -6,8 +6,9 @@ use hikage::{
     color::{LinearRgb, Srgb},
     golden::{Goldens, Tolerance},
     material::{
-        Alpha, AlphaMode, Base, Emission, FurDetail, LightResponse, Matcap, Material, NormalMap, Outline, OutlineWidth,
-        RampMaps, Rim, ShadeRamp, Shading, TextureRef, Toon, UvAnimation, UvTransform,
+        Alpha, AlphaMode, Base, Emission, FurDetail, LightResponse, Matcap, Material, NormalMap, Outline, OutlineTint,
+        OutlineWidth, PartColors, RampMaps, Rim, ShadeRamp, Shading, TextureRef, TintSource, Toon, UvAnimation,
+        UvTransform,
     },
     scene::{Ambient, Image, PunctualLight, Sampler, Scene, SpotCone, Wrap},
 };
@@ -325,6 +326,31 @@ fn outlines_of_every_kind() {
         outline.width_mask = Some(mask);
     }
     check("outline", &scene, &row_view(4));
+}
+
+/// Lines in the colours of what they surround: its shade, its light, another hue, and by part.
+#[test]
+fn outlines_in_the_colour_of_the_surface() {
+    let tinted = |tint: OutlineTint| Material {
+        outline: Some(Outline { width: OutlineWidth::World { metres: 0.03 }, tint: Some(tint), ..Outline::default() }),
+        ..two_tone()
+    };
+    let mut scene = row(vec![
+        tinted(OutlineTint::default()),
+        tinted(OutlineTint { from: TintSource::Lit, ..OutlineTint::default() }),
+        tinted(OutlineTint { hue_rad: 1.5, saturation: 1.6, ..OutlineTint::default() }),
+        tinted(OutlineTint::default()),
+    ]);
+    let part_ids = texture(&mut scene, 64, 32, |_, y| [(y / 4) as u8, 0, 0, 255]);
+    let mut colors = [[0.0; 3]; 8];
+    for (i, color) in colors.iter_mut().enumerate() {
+        *color = [0.1 + 0.1 * i as f32, 0.05, 0.8 - 0.1 * i as f32];
+    }
+    let parts = Some(PartColors { part_ids, colors });
+    if let Some(outline) = &mut scene.materials[3].outline {
+        outline.tint = Some(OutlineTint { parts, ..OutlineTint::default() });
+    }
+    check("outline-tint", &scene, &row_view(4));
 }
 
 #[test]

@@ -4,7 +4,7 @@ use glam::{Mat4, Quat, Vec3};
 use hikage::{
     Background, Channel, Output, Renderer, View,
     color::{LinearRgb, Srgb},
-    material::{Alpha, AlphaMode, Base, Material, Outline, OutlineWidth, Shading, Toon},
+    material::{Alpha, AlphaMode, Base, Material, Outline, OutlineTint, OutlineWidth, Shading, Toon},
     motion::Pose,
     scene::{Ambient, Influences, Lights, Mesh, MorphTarget, Node, PunctualLight, Scene, Skin, SpotCone, Transform},
 };
@@ -163,6 +163,107 @@ fn hard_edges_do_not_split_the_outline() {
             assert!(first[1] > first[0] && first[1] > first[2], "{what} {i} meets {first:?} before the outline");
         }
     }
+}
+
+/// Pixels of a green line in the left half of the middle row.
+fn green_width(image: &hikage::scene::Image) -> f32 {
+    let share = |p: [u8; 4]| {
+        let [_, g, b, _] = p.map(|c| Srgb([c; 3]).to_linear().0[0]);
+        (g - b).clamp(0.0, 1.0)
+    };
+    (0..image.width / 2).map(|x| share(pixel(image, x, image.height / 2))).sum()
+}
+
+/// Between its bounds a line in the world thins with distance; beyond them it has their width, at any field of view.
+#[test]
+fn a_line_in_the_world_keeps_to_its_bounds() {
+    let gpu = gpu();
+    let bounds = [2.0, 12.0];
+    let width = OutlineWidth::World { metres: 0.02 };
+    let mut material = grey();
+    let line = Outline { width, color: [0.0, 1.0, 0.0], lighting_mix: 0.0, ..Outline::default() };
+    material.outline = Some(Outline { clamp_px: Some(bounds), ..line });
+    let scene = scene(vec![(sphere(0.5, 128, 256), material)]);
+    for (distance, fov) in [(1.2f32, 60.0f32), (4.0, 30.0), (8.0, 30.0), (20.0, 15.0), (20.0, 60.0)] {
+        let mut view = view(512, distance);
+        view.camera.fov_y_rad = fov.to_radians();
+        let found = green_width(&render(&gpu, &scene, &view));
+        // Along the view, as the hull of a sphere is seen.
+        let px_per_m = 256.0 / ((fov.to_radians() * 0.5).tan() * distance);
+        let expected = (0.02 * px_per_m).clamp(bounds[0] * 0.5, bounds[1] * 0.5);
+        let tolerance = 0.5 + 0.3 * f32::from(u8::from(distance < 2.0)) * expected;
+        assert!((found - expected).abs() < tolerance, "{found} px at {distance} m, {fov} degrees; expected {expected}");
+    }
+}
+
+/// A line takes its width from the red of the vertex colours where it is told to.
+#[test]
+fn vertex_colours_give_a_line_its_width() {
+    let gpu = gpu();
+    let width = OutlineWidth::Screen { height_ratio: 12.0 / 256.0 };
+    let mut material = grey();
+    material.outline =
+        Some(Outline { width, color: [0.0, 1.0, 0.0], lighting_mix: 0.0, vertex_width: true, ..Outline::default() });
+    let mut ball = sphere(0.5, 64, 128);
+    ball.colors = vec![[0.5, 1.0, 1.0, 1.0]; ball.positions.len()];
+    let found = green_width(&render(&gpu, &scene(vec![(ball, material)]), &view(256, 4.0)));
+    assert!((found - 6.0).abs() < 0.7, "{found} px");
+}
+
+/// Pushed away from the viewer, the line round a part that lies on another is hidden by it; the line round both stays.
+#[test]
+fn a_pushed_line_is_hidden_inside_of_the_shape() {
+    let gpu = gpu();
+    let lined = |push_m| {
+        let mut material = grey();
+        let width = OutlineWidth::World { metres: 0.02 };
+        material.outline =
+            Some(Outline { width, color: [0.0, 1.0, 0.0], lighting_mix: 0.0, push_m, ..Outline::default() });
+        let mut part = sphere(0.12, 32, 64);
+        part.positions.iter_mut().for_each(|p| p[2] = p[2] * 0.2 + 0.53);
+        render(&gpu, &scene(vec![(sphere(0.5, 64, 128), material.clone()), (part, material)]), &view(256, 4.0))
+    };
+    let green = |image: &hikage::scene::Image, inside: bool| {
+        let is_green = |p: [u8; 4]| p[1] > p[0].saturating_add(60);
+        let at = |x: u32, y: u32| (x.abs_diff(128).pow(2) + y.abs_diff(128).pow(2) < 60 * 60) == inside;
+        (0..256u32 * 256)
+            .map(|i| (i % 256, i / 256))
+            .filter(|(x, y)| at(*x, *y) && is_green(pixel(image, *x, *y)))
+            .count()
+    };
+    let (plain, pushed) = (lined(0.0), lined(0.1));
+    assert!(
+        green(&plain, true) > 50 && green(&pushed, true) == 0,
+        "{} and {}",
+        green(&plain, true),
+        green(&pushed, true)
+    );
+    assert!(green(&pushed, false) * 10 > green(&plain, false) * 9, "the line round the shape is gone");
+}
+
+/// A line in the colour of its surface is darker than that, dims with the light and never outshines it.
+#[test]
+fn a_tinted_line_dims_with_the_light() {
+    let gpu = gpu();
+    let mut material = two_tone();
+    let width = OutlineWidth::World { metres: 0.1 };
+    material.outline = Some(Outline { width, tint: Some(OutlineTint::default()), ..Outline::default() });
+    let scene = scene(vec![(sphere(0.4, 32, 64), material)]);
+    let line = |intensity: f32| {
+        let mut view = view(128, 5.0);
+        view.lights.directional.intensity = intensity;
+        view.background = Background::Color(Srgb([0; 3]));
+        let image = render(&gpu, &scene, &view);
+        // Just inside of the hull.
+        let first = (0..64).find(|x| pixel(&image, *x, 64)[..3] != [0; 3]);
+        first.map(|x| Srgb(pixel(&image, x + 2, 64)[..3].try_into().expect("three")).to_linear().0)
+    };
+    let [full, half, bright] = [1.0, 0.5, 30.0].map(|i| line(i).expect("a line"));
+    assert_eq!(line(0.0), None, "no light, no line");
+    let shade = [0.3, 0.12, 0.4];
+    assert!(full.iter().zip(shade).all(|(l, s)| *l < s * 0.7), "{full:?} round {shade:?}");
+    assert!(half.iter().zip(full).all(|(h, f)| (h - f * 0.5).abs() < 0.01), "{half:?} of {full:?}");
+    assert!(bright.iter().zip(full).all(|(b, f)| (b - f).abs() < 0.01), "{bright:?} of {full:?}");
 }
 
 #[test]

@@ -300,7 +300,7 @@ fn shade_surface(options: SurfaceOptions, in: SurfaceInput) -> vec4f {
     var received = 0.0;
     if options.bangs_shadow {
         // What is in shade already gets no darker.
-        let share = select(shading, 1.0, options.shade_ramp) * directional * of_face;
+        let share = select(shading, ceil(soft), options.shade_ramp) * directional * of_face;
         bangs = bangs_lit(in.bangs, BANGS_LAYER, share > 0.0);
         if options.lid_shadow {
             bangs = min(bangs, bangs_lit(in.bangs, LIDS_LAYER, share > 0.0));

@@ -9,7 +9,7 @@ use crate::picture::{Picture, rgb, smoothstep};
 /// Rows of the ramps from above: materials by the start of their names, tint in shade and at the terminator, warm and
 /// cool.
 const ROWS: &[(&[&str], [[u32; 2]; 2])] = &[
-    (&["Face", "Mouth", "Body_Skin"], [[0xf2b9a8, 0xff9d84], [0xecc0c2, 0xf59e96]]),
+    (&["Face", "Mouth", "Body_Skin"], [[0xf7c9b6, 0xffb8a2], [0xf0c8cc, 0xf8b8b2]]),
     (&["Hair"], [[0xd9bcc9, 0xf2b8ae], [0xb7b4e6, 0xb9a4dc]]),
     (&["Jacket", "Skirt", "Stocking", "Cloth_Bow", "Cloth_Shorts"], [[0xa88aa6, 0xb8706e], [0x8a86cc, 0x7a6bb8]]),
     (&["Cloth_Blouse", "Jacket_Fur", "Jacket_Cuff"], [[0xe6c4bc, 0xf2bfa0], [0xc2bfe8, 0xc9b4e0]]),
