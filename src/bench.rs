@@ -93,7 +93,7 @@ pub struct BenchReport {
 }
 
 const TIMEOUT: Duration = Duration::from_secs(120);
-const TIMED_PASSES: [&str; 4] = ["deform", "bangs shadow", "depth", "colour"];
+const TIMED_PASSES: [&str; 5] = ["deform", "bangs shadow", "shadow", "depth", "colour"];
 
 /// A scene that is ready to be timed: frames and floor frames with the same triangles, targets and pose.
 pub struct Stage<'a> {
@@ -160,14 +160,22 @@ impl<'a> Stage<'a> {
         self.renderer.begin_frame(&mut self.uploaded, &self.view);
         let mut encoder =
             self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("bench") });
-        let timed = [true, prepare && self.uploaded.bangs.is_some(), prepare && self.uploaded.has_depth_rim, true];
+        let of_frame = |is_there: bool| prepare && is_there;
+        let timed = [
+            true,
+            of_frame(self.uploaded.bangs.is_some()),
+            of_frame(self.uploaded.shadow.is_some()),
+            of_frame(self.uploaded.has_depth_rim),
+            true,
+        ];
         self.renderer.encode_deform(&mut encoder, &mut self.uploaded, self.clock.compute_writes());
         if prepare {
             self.renderer.encode_bangs_shadow(&mut encoder, &self.uploaded, self.clock.render_writes(1));
-            self.renderer.encode_depth(&mut encoder, &self.uploaded, self.clock.render_writes(2));
+            self.renderer.encode_shadow(&mut encoder, &self.uploaded, self.clock.render_writes(2));
+            self.renderer.encode_depth(&mut encoder, &self.uploaded, self.clock.render_writes(3));
         }
         {
-            let writes = self.clock.render_writes(3);
+            let writes = self.clock.render_writes(4);
             let mut pass = self.renderer.begin_color_pass(&mut encoder, &self.view, &self.target, writes);
             let scene = &self.uploaded;
             draw_list::bind_scene(&mut pass, scene, self.renderer.color_frame_group(scene), &scene.character_group);

@@ -120,7 +120,7 @@ fn a_sweep_of_the_light_never_goes_back() {
     let (gpu, mut scene) = (gpu(), heroine());
     for material in &mut scene.materials {
         // Near the neck it follows the normals, which may turn to the light.
-        material.transition = None;
+        (material.transition, material.shade_ramp) = (None, None);
     }
     let view = portrait(&scene);
     let mut renderer = Renderer::new(&gpu).expect("a renderer");
@@ -149,7 +149,7 @@ fn with_map(map: FaceMap) -> Scene {
     }
     for material in &mut scene.materials {
         // Nothing but the map: no tint, no drawing.
-        (material.transition, material.face_paint) = (None, None);
+        (material.transition, material.shade_ramp, material.face_paint) = (None, None, None);
         material.face_shadow = material.face_shadow.map(|f| FaceShadow { softness: 0.1, ..f });
     }
     scene

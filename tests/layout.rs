@@ -124,10 +124,11 @@ fn structs_match_their_wgsl() {
                 fur_normal_scale,
                 fur_terminator,
                 fur_blur,
-                outline_gamma,
+                shadow_received,
                 outline_tint,
-                outline_push,
+                outline_gamma,
                 outline_bounds,
+                outline_push,
                 outline_shift,
                 outline_parts,
                 base_uv,
@@ -164,7 +165,15 @@ fn structs_match_their_wgsl() {
                 through_window,
                 through_fade_yaw,
                 through_fade_pitch,
-                head
+                head,
+                shadow_right,
+                shadow_scale,
+                shadow_up,
+                shadow_bias,
+                shadow_to_light,
+                shadow_spread,
+                shadow_middle,
+                shadow_layers
             }
         ),
         layout!(

@@ -6,10 +6,10 @@ use glam::Vec3;
 
 use super::hair_band;
 use crate::material::{
-    AlphaMode, Authored, BangsShadow, DepthRim, FacePaint, FaceShadow, FurDetail, Highlight, Layer, Material, Outline,
+    AlphaMode, Authored, BangsShadow, CastShadow, DepthRim, FacePaint, FaceShadow, FurDetail, Highlight, Layer, Material, Outline,
     OutlineTint, OutlineWidth, RampMaps, ShadeRamp, Shading, Transition,
 };
-use crate::scene::{Bangs, EyesThrough, Role, Scene};
+use crate::scene::{Bangs, EyesThrough, Role, Scene, SelfShadow};
 use crate::sdf::{FaceMap, Sides, face_map};
 
 /// Materials that get a face's shadow: characters have one to three, and a file of thousands must not fill the memory.
@@ -19,6 +19,7 @@ pub(super) fn apply(scene: &mut Scene, painted: Option<&Sides>) {
     scene.bangs = Some(Bangs::default());
     scene.eyes_through = Some(EyesThrough::default());
     outlines(scene);
+    self_shadow(scene);
     round_hair(scene);
     hair(scene);
     faces(scene, painted);
@@ -61,6 +62,33 @@ fn outlines(scene: &mut Scene) {
         if material.alpha.mode != AlphaMode::Blend {
             let width = OutlineWidth::Screen { height_ratio: 0.0016 };
             material.outline = Some(Outline { width, tint: Some(OutlineTint::default()), ..Outline::default() });
+        }
+    }
+}
+
+/// Everything casts on the body but what lies on the eyes. Faces keep to their maps and hair to its round shape: shade of
+/// every lock on the next would break both.
+fn self_shadow(scene: &mut Scene) {
+    scene.self_shadow = Some(SelfShadow::default());
+    let of = |scene: &Scene, roles: &[Role]| -> BTreeSet<usize> {
+        roles.iter().flat_map(|role| materials_of(scene, *role)).collect()
+    };
+    let casts = of(scene, &[
+        Role::Face,
+        Role::Skin,
+        Role::Hair,
+        Role::HairFront,
+        Role::Cloth,
+        Role::Accessory,
+        Role::Other,
+    ]);
+    let receives = of(scene, &[Role::Skin, Role::Cloth, Role::Accessory, Role::Other]);
+    let face = of(scene, &[Role::Face]);
+    for index in casts {
+        let received = f32::from(u8::from(receives.contains(&index) && !face.contains(&index)));
+        let material = &mut scene.materials[index];
+        if material.alpha.mode != AlphaMode::Blend {
+            material.cast_shadow = Some(CastShadow { casts: true, received });
         }
     }
 }

@@ -35,6 +35,8 @@ const MAX_BYTES: u64 = 1 << 20;
 ///
 /// [bangs]                             # sections of the scene; false switches one off
 /// soft_width_mm = 4
+/// [self_shadow]
+/// side = 2048
 /// [eyes_through]
 /// opacity = 0.4
 ///
@@ -48,8 +50,8 @@ const MAX_BYTES: u64 = 1 << 20;
 /// color = "#8c4a44"
 /// ```
 ///
-/// Sections and keys are those of [`Material`](crate::material::Material), [`Bangs`](crate::scene::Bangs) and
-/// [`EyesThrough`](crate::scene::EyesThrough). What a file does not name stays as it is. Instead of `_rad` a key may end in
+/// Sections and keys are those of [`Material`](crate::material::Material), [`Bangs`](crate::scene::Bangs),
+/// [`SelfShadow`](crate::scene::SelfShadow) and [`EyesThrough`](crate::scene::EyesThrough). What a file does not name stays as it is. Instead of `_rad` a key may end in
 /// `_deg`, instead of `_m` in `_cm` or `_mm`; a colour may be `"#rrggbb"` (sRGB) or linear numbers; a texture is a file
 /// beside the look file. A name or key that does not exist is an error with the nearest one that does.
 #[derive(Clone, Debug, Default)]
@@ -65,6 +67,7 @@ struct Document {
     parts: BTreeMap<String, Role>,
     light: Option<Value>,
     bangs: Option<Value>,
+    self_shadow: Option<Value>,
     eyes_through: Option<Value>,
     role: BTreeMap<Role, Table>,
     material: BTreeMap<String, Table>,
@@ -180,6 +183,7 @@ impl LookFile {
             scene.lights = light.as_ref().map(lights);
         }
         scene.bangs = self.section("bangs", self.document.bangs.as_ref(), scene.bangs)?;
+        scene.self_shadow = self.section("self_shadow", self.document.self_shadow.as_ref(), scene.self_shadow)?;
         scene.eyes_through = self.section("eyes_through", self.document.eyes_through.as_ref(), scene.eyes_through)?;
         for (role, table) in &self.document.role {
             let name = format!("role.{}", role_name(*role));
@@ -209,6 +213,7 @@ impl LookFile {
         root.insert("base".to_owned(), "anime".into());
         let section = |value: Option<Table>| value.map(Value::Table);
         let (bangs, through) = (scene.bangs.and_then(table_of), scene.eyes_through.and_then(table_of));
+        root.extend(section(scene.self_shadow.and_then(table_of)).map(|t| ("self_shadow".to_owned(), t)));
         root.extend(section(bangs).map(|t| ("bangs".to_owned(), t)));
         root.extend(section(through).map(|t| ("eyes_through".to_owned(), t)));
         let (mut roles, mut materials) = (Table::new(), Table::new());
@@ -442,6 +447,7 @@ fn look_sections(material: &crate::material::Material) -> Table {
         "transition",
         "shade_ramp",
         "light_response",
+        "cast_shadow",
         "fur_detail",
         "face_paint",
         "bangs_shadow",

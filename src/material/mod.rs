@@ -4,6 +4,7 @@ mod alpha;
 mod authored;
 mod bangs_shadow;
 mod base;
+mod cast_shadow;
 mod depth_rim;
 mod face_paint;
 mod face_shadow;
@@ -23,6 +24,7 @@ pub use alpha::{Alpha, AlphaMode};
 pub use authored::Authored;
 pub use bangs_shadow::BangsShadow;
 pub use base::{Base, Emission, NormalMap, TextureRef, UvTransform};
+pub use cast_shadow::CastShadow;
 pub use depth_rim::DepthRim;
 pub use face_paint::FacePaint;
 pub use face_shadow::{AngleMapping, FaceShadow};
@@ -76,6 +78,8 @@ pub struct Material {
     pub face_paint: Option<FacePaint>,
     /// Shadow of bangs and of what else stands before the face. Default: none.
     pub bangs_shadow: Option<BangsShadow>,
+    /// Part in the shadow of the character on itself. Default: none.
+    pub cast_shadow: Option<CastShadow>,
     /// Painted highlight that moves. Default: none.
     pub highlight: Option<Highlight>,
     /// What the file carries for looks that use it.

@@ -32,6 +32,8 @@ pub(crate) struct Draw {
     /// that.
     pub bangs: Option<wgpu::RenderPipeline>,
     pub casts_on_face: bool,
+    /// Draws it into the shadow maps of characters.
+    pub shadow: Option<wgpu::RenderPipeline>,
     /// Where it casts the shadow of lids and lashes.
     pub lids: Option<wgpu::RenderPipeline>,
     pub mark: Mark,
@@ -71,7 +73,10 @@ impl Renderer {
                 last.indices.end = part.indices.end;
                 continue;
             }
-            let flags = SurfaceFlags::of(material, &driven[part.material], part.has_vertex_colors, &scene.face_maps);
+            let mut flags =
+                SurfaceFlags::of(material, &driven[part.material], part.has_vertex_colors, &scene.face_maps);
+            flags.cast_shadow &= scene.self_shadow.is_some();
+            let casts = scene.self_shadow.is_some() && !blend && material.cast_shadow.is_some_and(|s| s.casts);
             draws.push(Draw {
                 material: part.material,
                 indices: part.indices.clone(),
@@ -93,6 +98,7 @@ impl Renderer {
                     .then(|| self.eyes_through.pipeline(&self.gpu, &self.layouts, flags, material)),
                 casts_on_face,
                 bangs: in_map.then(|| self.bangs_shadow.pipeline(&self.gpu, &self.layouts, flags, material)),
+                shadow: casts.then(|| self.shadow.pipeline(&self.gpu, &self.layouts, flags, material)),
                 lids: casts_lids.then(|| self.bangs_shadow.pipeline(&self.gpu, &self.layouts, flags, material)),
             });
         }

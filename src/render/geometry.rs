@@ -23,6 +23,10 @@ pub(crate) struct Rig {
     pub head: Option<(usize, Mat4)>,
     /// Middle of the head at rest, character space.
     pub head_middle: Vec3,
+    /// Node of the hips, and the inverse of its place at rest.
+    pub hips: Option<(usize, Mat4)>,
+    /// Least and greatest corner of all vertices at rest, character space; empty without a vertex.
+    pub bounds: Option<(Vec3, Vec3)>,
 }
 
 #[derive(Debug)]
@@ -64,7 +68,9 @@ impl Geometry {
     pub fn gather(scene: &Scene) -> Self {
         let mut geometry = Self::default();
         let rest = scene.rest_world_from_nodes();
-        geometry.rig.head = scene.bone_node(HumanBone::Head).and_then(|n| Some((n, rest.get(n)?.inverse())));
+        let bone = |bone| scene.bone_node(bone).and_then(|n| Some((n, rest.get(n)?.inverse())));
+        geometry.rig.head = bone(HumanBone::Head);
+        geometry.rig.hips = bone(HumanBone::Hips);
         // A little over the bone, at the base of the skull, where there is no face.
         let over_bone = || Some(geometry.rig.head?.1.inverse().w_axis.truncate() + Vec3::Y * 0.1);
         let middle = scene.face_box(None).map(|(low, high)| (low + high) * 0.5).or_else(over_bone);
@@ -165,6 +171,10 @@ impl Geometry {
             let [a, b, c] = [t[0] + first, t[1] + first, t[2] + first];
             if mirrored { [a, c, b] } else { [a, b, c] }
         }));
+        if low.cmple(high).all() {
+            let (a, b) = self.rig.bounds.unwrap_or((low, high));
+            self.rig.bounds = Some((a.min(low), b.max(high)));
+        }
         self.parts.push(Part {
             material: primitive.material,
             indices: start..self.indices.len() as u32,

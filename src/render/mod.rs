@@ -26,6 +26,7 @@ use pass::{
     opaque::{OpaqueInputs, OpaquePass},
     outline::{OutlineInputs, OutlinePass},
     prepass::{PrepassInputs, PrepassPass},
+    shadow::{ShadowInputs, ShadowPass},
     transparent::{TransparentInputs, TransparentPass},
 };
 use targets::{ColorTargets, PrepassTargets};
@@ -72,6 +73,7 @@ pub struct Renderer {
     pub(crate) bangs_near: BangsNearPass,
     pub(crate) bangs_shadow: BangsShadowPass,
     pub(crate) prepass: PrepassPass,
+    pub(crate) shadow: ShadowPass,
     pub(crate) opaque: OpaquePass,
     pub(crate) outline: OutlinePass,
     pub(crate) eyes_through: EyesThroughPass,
@@ -122,6 +124,7 @@ impl Renderer {
                 bangs_near: BangsNearPass::new(gpu),
                 bangs_shadow: BangsShadowPass::new(gpu),
                 prepass: PrepassPass::new(gpu),
+                shadow: ShadowPass::new(gpu),
                 opaque: OpaquePass::new(gpu, output),
                 outline: OutlinePass::new(gpu, output),
                 eyes_through: EyesThroughPass::new(gpu, output),
@@ -192,6 +195,8 @@ impl Renderer {
         self.encode_deform(encoder, scene, None);
         // What casts on the face, from the light of that shadow.
         self.encode_bangs_shadow(encoder, scene, None);
+        // Each character from the key light.
+        self.encode_shadow(encoder, scene, None);
         // Depth of all surfaces, where a rim reads it.
         self.encode_depth(encoder, scene, None);
         // One colour pass: opaque, outlines and transparent share their targets, so samples are resolved once.
@@ -223,6 +228,7 @@ impl Renderer {
             }
             self.gpu.queue.write_buffer(&scene.instances, 0, bytemuck::cast_slice(&scene.instance_rows));
         }
+        scene.fit_shadow(self);
         scene.light(&self.gpu, view);
         // Draws of a crowd share one order: that of its first character.
         let eye = view.instances.first().map_or(view.camera.eye, |m| m.inverse().transform_point3(view.camera.eye));
@@ -257,6 +263,17 @@ impl Renderer {
         if let Some(map) = &scene.bangs {
             let inputs = BangsShadowInputs { scene, frame: &self.frame_group, reduce: &self.bangs_near, map };
             self.bangs_shadow.encode(encoder, &inputs, timestamps);
+        }
+    }
+
+    pub(crate) fn encode_shadow(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        scene: &GpuScene,
+        timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
+    ) {
+        if let Some(map) = &scene.shadow {
+            self.shadow.encode(encoder, &ShadowInputs { scene, frame: &self.frame_group, map }, timestamps);
         }
     }
 
@@ -428,6 +445,20 @@ impl Layouts {
                     3,
                     wgpu::ShaderStages::FRAGMENT,
                     wgpu::BindingType::Sampler(wgpu::SamplerBindingType::NonFiltering),
+                ),
+                entry(
+                    4,
+                    wgpu::ShaderStages::FRAGMENT,
+                    wgpu::BindingType::Texture {
+                        sample_type: wgpu::TextureSampleType::Depth,
+                        view_dimension: wgpu::TextureViewDimension::D2Array,
+                        multisampled: false,
+                    },
+                ),
+                entry(
+                    5,
+                    wgpu::ShaderStages::FRAGMENT,
+                    wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Comparison),
                 ),
             ],
         });

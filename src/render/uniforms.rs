@@ -6,7 +6,10 @@ use glam::{Mat4, Vec3};
 use crate::{
     color::hue_saturation,
     material::{AngleMapping, MAX_PARTS, Material, OutlineWidth, Shading, TextureRef, UvTransform},
-    render::{View, pass::bangs_shadow::BangsMap},
+    render::{
+        View,
+        pass::{bangs_shadow::BangsMap, shadow::ShadowRows},
+    },
     scene::{EyesThrough, MAX_PUNCTUAL_LIGHTS},
     sdf::{FaceMap, MAX_PITCHES},
 };
@@ -126,11 +129,12 @@ pub struct MaterialUniform {
     pub fur_normal_scale: f32,
     pub fur_terminator: [f32; 2],
     pub fur_blur: f32,
-    pub outline_gamma: f32,
+    pub shadow_received: f32,
     pub outline_tint: [f32; 3],
-    pub outline_push: f32,
+    pub outline_gamma: f32,
     pub outline_bounds: [f32; 2],
-    pub padding_outline: [f32; 2],
+    pub outline_push: f32,
+    pub padding_outline: f32,
     pub outline_shift: [[f32; 4]; 3],
     pub outline_parts: [[f32; 4]; MAX_PARTS],
     pub base_uv: UvTransformUniform,
@@ -172,6 +176,14 @@ pub struct CharacterUniform {
     pub through_fade_pitch: [f32; 2],
     pub head: [f32; 3],
     pub padding_head: f32,
+    pub shadow_right: [f32; 3],
+    pub shadow_scale: f32,
+    pub shadow_up: [f32; 3],
+    pub shadow_bias: f32,
+    pub shadow_to_light: [f32; 3],
+    pub shadow_spread: f32,
+    pub shadow_middle: [f32; 3],
+    pub shadow_layers: u32,
 }
 
 /// `DeformVertex` of `wgsl/pass/deform.wgsl`, and the first vertex stream of every draw.
@@ -390,11 +402,12 @@ impl MaterialUniform {
             fur_normal_scale: fur.normal_scale,
             fur_terminator: fur.terminator,
             fur_blur: fur.blur_levels,
-            outline_gamma: tint.gamma,
+            shadow_received: material.cast_shadow.map_or(0.0, |s| s.received),
             outline_tint: tint.factor,
-            outline_push: outline.push_m,
+            outline_gamma: tint.gamma,
             outline_bounds: outline.clamp_px.unwrap_or_default(),
-            padding_outline: [0.0; 2],
+            outline_push: outline.push_m,
+            padding_outline: 0.0,
             outline_shift: columns(tint.hue_rad, tint.saturation),
             outline_parts: parts.colors.map(|[r, g, b]| [r, g, b, 1.0]),
             base_uv: UvTransformUniform::new(material.base.texture),
@@ -416,7 +429,7 @@ impl MaterialUniform {
 
 impl CharacterUniform {
     /// Uniform of a character whose head is moved so from its rest, with the head's middle at rest, the light in her space,
-    /// and what takes the world to that.
+    /// what takes the world to that, and her shadow on herself.
     pub(crate) fn new(
         head: Mat4,
         middle: Vec3,
@@ -424,6 +437,7 @@ impl CharacterUniform {
         through: Option<EyesThrough>,
         to_light: Vec3,
         from_world: Mat4,
+        shadow: ShadowRows,
     ) -> Self {
         let [row_u, row_v, row_depth] = bangs.map_or([glam::Vec4::ZERO; 3], |b| b.rows(head, to_light));
         let [hardness, bias] = bangs.map_or([0.0; 2], BangsMap::test);
@@ -451,6 +465,14 @@ impl CharacterUniform {
             through_fade_pitch: through.map_or([0.0; 2], |t| t.fade_pitch_rad),
             head: head.transform_point3(middle).to_array(),
             padding_head: 0.0,
+            shadow_right: shadow.right.to_array(),
+            shadow_scale: shadow.scale,
+            shadow_up: shadow.up.to_array(),
+            shadow_bias: shadow.bias,
+            shadow_to_light: shadow.to_light.to_array(),
+            shadow_spread: shadow.spread,
+            shadow_middle: shadow.middle.to_array(),
+            shadow_layers: shadow.layers,
         }
     }
 }

@@ -13,6 +13,7 @@ use super::{
         SurfaceFlags,
         bangs_shadow::{BangsMap, map_texture},
         deform::DeformBuffers,
+        shadow::{self, ShadowMap, ShadowRows},
     },
     textures::{self, Encoding, TextureSet},
     uniforms::{AffineRows, CharacterUniform, MaterialUniform},
@@ -40,8 +41,11 @@ pub struct GpuScene {
     /// The same while the map of the bangs is drawn.
     pub(crate) character_group_without_map: wgpu::BindGroup,
     pub(crate) bangs: Option<BangsMap>,
-    /// Moves the head from its rest to the pose.
+    pub(crate) shadow: Option<ShadowMap>,
+    map_samplers: MapSamplers,
+    /// Moves the head from its rest to the pose, and the hips.
     head: Mat4,
+    hips: Mat4,
     character: wgpu::Buffer,
     pub(crate) materials: wgpu::Buffer,
     pub(crate) material_groups: Vec<wgpu::BindGroup>,
@@ -64,6 +68,13 @@ pub struct GpuScene {
     part_materials: Vec<usize>,
     triangles: usize,
     texture_bytes: u64,
+}
+
+/// How shaders read the maps of shadows.
+#[derive(Debug)]
+struct MapSamplers {
+    gather: wgpu::Sampler,
+    compare: wgpu::Sampler,
 }
 
 /// Pipelines of a draw that a debug channel replaces.
@@ -152,23 +163,13 @@ impl Renderer {
         let static_vertices = buffer("static vertices", bytemuck::cast_slice(&geometry.static_vertices), U::VERTEX);
         let character = buffer("character", &[0; size_of::<CharacterUniform>()], U::UNIFORM | U::COPY_DST);
         let bangs = self.bangs_map(scene, &geometry);
-        let gather = device.create_sampler(&wgpu::SamplerDescriptor { label: Some("bangs"), ..Default::default() });
-        let no_map = map_texture(&self.gpu, 1, 1);
-        let character_group = |map, near| {
-            self.gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-                label: Some("character"),
-                layout: &self.layouts.character,
-                entries: &[
-                    wgpu::BindGroupEntry { binding: 0, resource: character.as_entire_binding() },
-                    wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::TextureView(map) },
-                    wgpu::BindGroupEntry { binding: 2, resource: wgpu::BindingResource::TextureView(near) },
-                    wgpu::BindGroupEntry { binding: 3, resource: wgpu::BindingResource::Sampler(&gather) },
-                ],
-            })
+        let shadow = self.shadow_map(scene, &geometry);
+        let map_samplers = MapSamplers {
+            gather: device.create_sampler(&wgpu::SamplerDescriptor { label: Some("bangs"), ..Default::default() }),
+            compare: shadow::sampler(&self.gpu),
         };
-        let character_group_without_map = character_group(&no_map, &no_map);
-        let character_group =
-            bangs.as_ref().map_or_else(|| character_group_without_map.clone(), |b| character_group(&b.view, &b.near));
+        let character_group_without_map = self.character_group(&character, &map_samplers, None, None);
+        let character_group = self.character_group(&character, &map_samplers, bangs.as_ref(), shadow.as_ref());
         let deform = self.deform.buffers(&self.gpu, &geometry.deform_input());
         let draws = self.make_draws(scene, &geometry.parts);
         let mut uploaded = GpuScene {
@@ -181,7 +182,10 @@ impl Renderer {
             character_group,
             character_group_without_map,
             bangs,
+            shadow,
+            map_samplers,
             head: Mat4::IDENTITY,
+            hips: Mat4::IDENTITY,
             character,
             materials,
             material_groups,
@@ -257,6 +261,46 @@ impl Renderer {
         })?
     }
 
+    /// Group 1; where a map is missing, an empty one stands.
+    fn character_group(
+        &self,
+        character: &wgpu::Buffer,
+        samplers: &MapSamplers,
+        bangs: Option<&BangsMap>,
+        shadow: Option<&ShadowMap>,
+    ) -> wgpu::BindGroup {
+        let no_bangs = map_texture(&self.gpu, 1, 1);
+        let (map, near) = bangs.map_or((&no_bangs, &no_bangs), |b| (&b.view, &b.near));
+        let no_shadow = shadow::map_texture(&self.gpu, 1, 1);
+        let view = |view| wgpu::BindingResource::TextureView(view);
+        let resources = [
+            character.as_entire_binding(),
+            view(map),
+            view(near),
+            wgpu::BindingResource::Sampler(&samplers.gather),
+            view(shadow.map_or(&no_shadow, |s| &s.view)),
+            wgpu::BindingResource::Sampler(&samplers.compare),
+        ];
+        let entries: Vec<_> =
+            (0..).zip(resources).map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource }).collect();
+        self.gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("character"),
+            layout: &self.layouts.character,
+            entries: &entries,
+        })
+    }
+
+    /// The shadow maps of the scene's characters, where something casts and something receives.
+    fn shadow_map(&self, scene: &Scene, geometry: &Geometry) -> Option<ShadowMap> {
+        let settings = scene.self_shadow?;
+        let (low, high) = geometry.rig.bounds?;
+        let casts = scene.materials.iter().any(|m| m.cast_shadow.is_some_and(|s| s.casts));
+        let receives = scene.materials.iter().any(|m| m.cast_shadow.is_some_and(|s| s.received > 0.0));
+        let radius = (high - low).length() * 0.5;
+        let fits = casts && receives && radius.is_finite() && radius > 0.0;
+        fits.then(|| ShadowMap::new(&self.gpu, settings, (low + high) * 0.5, radius))
+    }
+
     /// The map of the bangs' shadow, where the scene has bangs, hair that casts and a face that receives.
     fn bangs_map(&self, scene: &Scene, geometry: &Geometry) -> Option<BangsMap> {
         let bangs = scene.bangs?;
@@ -292,7 +336,8 @@ impl GpuScene {
             let of_node = pose.morph_weights.get(node).map_or(&[] as &[f32], Vec::as_slice);
             weights.extend((0..targets).map(|t| of_node.get(t).copied().unwrap_or(0.0)));
         }
-        self.head = self.rig.head.map_or(Mat4::IDENTITY, |(node, rest_inverse)| matrix(node) * rest_inverse);
+        let moved = |bone: Option<(usize, Mat4)>| bone.map_or(Mat4::IDENTITY, |(node, inverse)| matrix(node) * inverse);
+        (self.head, self.hips) = (moved(self.rig.head), moved(self.rig.hips));
         gpu.queue.write_buffer(&self.deform.joints, 0, bytemuck::cast_slice(joints));
         if !weights.is_empty() {
             gpu.queue.write_buffer(&self.deform.weights, 0, bytemuck::cast_slice(weights));
@@ -307,6 +352,19 @@ impl GpuScene {
         self.deform_pending = true;
     }
 
+    /// Gives each character of a larger crowd its shadow map.
+    pub(crate) fn fit_shadow(&mut self, renderer: &Renderer) {
+        let Some(shadow) = &mut self.shadow else { return };
+        if shadow.fit(&renderer.gpu, self.instance_rows.len()) {
+            self.character_group = renderer.character_group(
+                &self.character,
+                &self.map_samplers,
+                self.bangs.as_ref(),
+                self.shadow.as_ref(),
+            );
+        }
+    }
+
     /// Writes what of the character depends on the light. A crowd shares the shadow of its first one's bangs.
     pub(crate) fn light(&self, gpu: &Gpu, view: &View) {
         let from_world = view.instances.first().copied().unwrap_or_default().inverse();
@@ -318,6 +376,10 @@ impl GpuScene {
             self.eyes_through,
             to_light,
             from_world,
+            self.shadow.as_ref().map_or_else(ShadowRows::default, |s| {
+                let middle = self.hips.transform_point3(s.middle);
+                s.rows(middle, view.lights.directional.to_light, self.instance_rows.len())
+            }),
         );
         gpu.queue.write_buffer(&self.character, 0, bytemuck::bytes_of(&uniform));
     }

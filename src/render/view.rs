@@ -100,6 +100,8 @@ pub enum Channel {
     ShadeRamp,
     /// Regions of painted fur: light in red, terminator in green, shade in blue.
     Fur,
+    /// Share of the key light that a character lets through to itself; black where nothing receives its shadow.
+    SelfShadow,
 }
 
 impl Channel {
@@ -119,6 +121,7 @@ impl Channel {
         Self::EyesThrough,
         Self::ShadeRamp,
         Self::Fur,
+        Self::SelfShadow,
     ];
 
     /// Its name: `final`, `normal`, `depth`, `part-id`, `face-shadow` and so on.
@@ -139,6 +142,7 @@ impl Channel {
             Self::EyesThrough => "eyes-through",
             Self::ShadeRamp => "shade-ramp",
             Self::Fur => "fur",
+            Self::SelfShadow => "self-shadow",
         }
     }
 
@@ -167,6 +171,7 @@ impl Channel {
             Self::EyesThrough => 8,
             Self::ShadeRamp => 9,
             Self::Fur => 10,
+            Self::SelfShadow => 11,
         })
     }
 

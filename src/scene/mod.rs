@@ -11,6 +11,7 @@ mod head;
 mod light;
 mod mesh;
 mod role;
+mod self_shadow;
 mod texture;
 
 pub use animation::{Animation, AnimationChannel, AnimationValues, Interpolation};
@@ -21,6 +22,7 @@ pub use eyes_through::EyesThrough;
 pub use light::{Ambient, DirectionalLight, Lights, MAX_PUNCTUAL_LIGHTS, PunctualLight, SpotCone};
 pub use mesh::{Influences, Mesh, MorphTarget, Primitive, Skin};
 pub use role::Role;
+pub use self_shadow::{MOST_SHADOWED, SelfShadow};
 pub use texture::{Filter, Image, Sampler, Texture, Wrap};
 
 use glam::{Mat4, Quat, Vec3};
@@ -55,6 +57,8 @@ pub struct Scene {
     pub lights: Option<Lights>,
     /// Light of the shadow that bangs and others cast on the face. `None`: nothing does.
     pub bangs: Option<Bangs>,
+    /// Shadow of characters on themselves. `None`: there is none.
+    pub self_shadow: Option<SelfShadow>,
     /// Eyes and brows through hair. `None`: hair hides them.
     pub eyes_through: Option<EyesThrough>,
     /// What will look or work other than the author meant.

@@ -1,5 +1,7 @@
 // Group 1: the character that is drawn.
+import package::bind::vertex::{VertexInput, world_position};
 import package::lib::bangs::{BANGS_BLOCK, BANGS_TAPS, bangs_weight, esm_taps};
+import package::lib::shadow::{shadow_edge, shadow_place};
 
 struct Character {
     // Axes of the face as the head is posed, character space, unit.
@@ -25,6 +27,19 @@ struct Character {
     through_fade_pitch: vec2f,
     // Middle of the head, character space.
     head: vec3f,
+    // Axes of the shadow map in the world, unit, and one over its width, metres.
+    shadow_right: vec3f,
+    shadow_scale: f32,
+    shadow_up: vec3f,
+    // Distance by which a receiver is moved along its normal, shares of the width.
+    shadow_bias: f32,
+    shadow_to_light: vec3f,
+    // Half the distance between two taps, shares of the width.
+    shadow_spread: f32,
+    // Its middle, character space.
+    shadow_middle: vec3f,
+    // Characters that have a map.
+    shadow_layers: u32,
 }
 
 @group(1) @binding(0) var<uniform> character: Character;
@@ -32,6 +47,8 @@ struct Character {
 // Nearest depth round each block of it.
 @group(1) @binding(2) var bangs_near: texture_2d_array<f32>;
 @group(1) @binding(3) var bangs_sampler: sampler;
+@group(1) @binding(4) var shadow_map: texture_depth_2d_array;
+@group(1) @binding(5) var shadow_sampler: sampler_comparison;
 
 // Layers of the map: what casts on the face, and lids with lashes on the eyes.
 const BANGS_LAYER: i32 = 0;
@@ -47,6 +64,38 @@ fn bangs_from_world(position: vec3f) -> vec3f {
     return vec3f(
         dot(character.bangs_world_row_u, p), dot(character.bangs_world_row_v, p), dot(character.bangs_world_row_depth, p)
     );
+}
+
+// Place of a point of the world in the shadow map of the character that a vertex belongs to. Instances scale evenly.
+fn shadow_from_world(v: VertexInput, position: vec3f) -> vec3f {
+    let d = position - world_position(v, character.shadow_middle);
+    let scale = character.shadow_scale / length(v.world_row_x.xyz);
+    return shadow_place(d, character.shadow_right, character.shadow_up, character.shadow_to_light, scale);
+}
+
+// The same for a receiver with its normal, which is moved towards the light; w is the layer.
+fn shadow_receiver(v: VertexInput, position: vec3f, normal: vec3f) -> vec4f {
+    let at = shadow_from_world(v, position);
+    // Most where the surface lies along the light.
+    let n_dot_l = dot(normal, character.shadow_to_light);
+    let along = sqrt(saturate(1.0 - n_dot_l * n_dot_l));
+    let moved = normal * along + character.shadow_to_light * 0.5;
+    let by = shadow_place(moved, character.shadow_right, character.shadow_up, character.shadow_to_light, 1.0) - 0.5;
+    return vec4f(at + by * character.shadow_bias, f32(v.instance));
+}
+
+// Share of light that arrives there. What lies beyond the map is lit, and so is what the caller does not need (`wanted`).
+fn shadow_lit(at: vec4f, wanted: bool) -> f32 {
+    let layer = u32(at.w + 0.5);
+    let is_outside = any(at.xy <= vec2f(0.0)) || any(at.xy >= vec2f(1.0)) || layer >= character.shadow_layers;
+    // A count of 0 rather than a branch: software rasterizers walk both sides of branches, but leave loops early.
+    let taps = select(4, 0, is_outside || !wanted);
+    var lit = select(0.0, 4.0, taps == 0);
+    for (var i = 0; i < taps; i++) {
+        let offset = (vec2f(f32(i % 2), f32(i / 2)) * 2.0 - 1.0) * character.shadow_spread;
+        lit += textureSampleCompareLevel(shadow_map, shadow_sampler, at.xy + offset, layer, at.z);
+    }
+    return shadow_edge(lit * 0.25);
 }
 
 // Share of light that a layer lets through to a place of the map. What lies beyond its border is lit, and so is what the

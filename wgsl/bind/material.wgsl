@@ -86,11 +86,12 @@ struct Material {
     fur_terminator: vec2f,
     // Mip levels.
     fur_blur: f32,
-    outline_gamma: f32,
+    shadow_received: f32,
     outline_tint: vec3f,
+    outline_gamma: f32,
+    outline_bounds: vec2f,
     // Metres away from the viewer.
     outline_push: f32,
-    outline_bounds: vec2f,
     outline_shift: mat3x3f,
     outline_parts: array<vec4f, 8>,
     base_uv: UvTransform,

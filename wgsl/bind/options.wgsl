@@ -40,6 +40,8 @@ override HIGHLIGHT_APART: bool = false;
 override HIGHLIGHT_BREAKUP: bool = false;
 // A card in a stack.
 override LAYERED: bool = false;
+// The character casts its shadow on it.
+override CAST_SHADOW: bool = false;
 // Painted steps from shade to light; in pictures; by part; with another hue in shade.
 override SHADE_RAMP: bool = false;
 override RAMP_MAPS: bool = false;
@@ -60,7 +62,7 @@ fn surface_options() -> SurfaceOptions {
         UNLIT, BASE_TEXTURE, SHADE_TEXTURE, SHADE_IS_BASE, SHIFT_TEXTURE, NORMAL_MAP, EMISSION_TEXTURE, MATCAP, RIM,
         RIM_MASK, UV_TRANSFORMS, UV_ANIMATION, UV_ANIMATION_MASK, VERTEX_COLOR, ALPHA_MASK, ALPHA_COVERAGE,
         FACE_SHADOW, FACE_STACK, FACE_BACK, FACE_MASKS, TRANSITION, FACE_PAINT, BANGS_SHADOW, LID_SHADOW, HIGHLIGHT,
-        HIGHLIGHT_SECOND, HIGHLIGHT_APART, HIGHLIGHT_BREAKUP, LAYERED, SHADE_RAMP, RAMP_MAPS, RAMP_PARTS, SHADE_SHIFT,
+        HIGHLIGHT_SECOND, HIGHLIGHT_APART, HIGHLIGHT_BREAKUP, LAYERED, CAST_SHADOW, SHADE_RAMP, RAMP_MAPS, RAMP_PARTS, SHADE_SHIFT,
         LIGHT_RESPONSE, FUR_DETAIL, FUR_COLOR, DEPTH_RIM, CHANNEL
     );
 }

@@ -1,6 +1,6 @@
 // A toon surface: samples the material's textures and shades. Shared by the opaque, outline and transparent passes.
 // Which parts exist is fixed at pipeline creation, so that what a material does not use costs nothing.
-import package::bind::character::{BANGS_LAYER, LIDS_LAYER, bangs_lit};
+import package::bind::character::{BANGS_LAYER, LIDS_LAYER, bangs_lit, shadow_lit};
 import package::bind::face::{FaceOptions, face_shading_at};
 import package::bind::frame::{distance_at, frame, frame_depth};
 import package::bind::material::{
@@ -55,6 +55,7 @@ struct SurfaceOptions {
     highlight_apart: bool,
     highlight_breakup: bool,
     layered: bool,
+    cast_shadow: bool,
     shade_ramp: bool,
     ramp_maps: bool,
     ramp_parts: bool,
@@ -77,6 +78,7 @@ const CHANNEL_DEPTH_RIM: u32 = 7u;
 const CHANNEL_EYES_THROUGH: u32 = 8u;
 const CHANNEL_SHADE_RAMP: u32 = 9u;
 const CHANNEL_FUR: u32 = 10u;
+const CHANNEL_SELF_SHADOW: u32 = 11u;
 
 struct SurfaceInput {
     // Pixels from the top left, and depth.
@@ -93,12 +95,14 @@ struct SurfaceInput {
     bangs: vec3f,
     // Movement of the highlight, what is left of it, and how far the line of the nose shows.
     highlight: vec4f,
+    // Place in the shadow map of the character, and its layer.
+    shadow: vec4f,
 }
 
 // Input of `surface_texel` where nothing is shaded.
 fn texel_input(uv: vec4f, color: vec4f) -> SurfaceInput {
     let none = vec3f(0.0);
-    return SurfaceInput(none, none, none, vec4f(0.0), uv, color, vec4f(0.0), none, vec4f(0.0));
+    return SurfaceInput(none, none, none, vec4f(0.0), uv, color, vec4f(0.0), none, vec4f(0.0), vec4f(0.0));
 }
 
 // UVs of one texture: animation first, then KHR_texture_transform (MToon, "Compatibility with KHR_texture_transform").
@@ -274,6 +278,14 @@ fn shade_surface(options: SurfaceOptions, in: SurfaceInput) -> vec4f {
             soft = face_shading(soft, face.soft, face.region, face.strength * directional);
         }
     }
+    var cast = 1.0;
+    if options.cast_shadow {
+        cast = shadow_lit(in.shadow, max(shading, soft * f32(options.shade_ramp)) > 0.0);
+        // Of the key light alone.
+        let left = 1.0 - (1.0 - cast) * material.shadow_received * directional;
+        shading *= left;
+        soft *= left;
+    }
     if options.layered {
         shading = max(shading, material.stay_lit);
         soft = max(soft, material.stay_lit);
@@ -385,7 +397,7 @@ fn shade_surface(options: SurfaceOptions, in: SurfaceInput) -> vec4f {
         color += material.depth_rim_color * own * frame.light_color * contour;
     }
     if options.channel != 0u {
-        color = channel_color(options, shading, tint, paint, shine, bangs, contour, soft, fur);
+        color = channel_color(options, shading, tint, paint, shine, bangs, contour, soft, fur, cast);
     }
     return vec4f(color, base.a);
 }
@@ -463,7 +475,7 @@ fn ramp_color(options: SurfaceOptions, uv: vec4f, lit: vec3f, shade: vec3f, plac
 // What one of the debug channels shows.
 fn channel_color(
     options: SurfaceOptions, shading: f32, tint: vec3f, paint: vec3f, shine: f32, bangs: f32, contour: f32,
-    place: f32, fur: vec3f
+    place: f32, fur: vec3f, cast: f32
 ) -> vec3f {
     switch options.channel {
         case CHANNEL_FACE_SHADOW { return vec3f(shading) * select(vec3f(0.25), vec3f(1.0), options.face_shadow); }
@@ -475,6 +487,7 @@ fn channel_color(
         case CHANNEL_DEPTH_RIM { return vec3f(contour); }
         case CHANNEL_SHADE_RAMP { return select(vec3f(0.0), vec3f(place), options.shade_ramp); }
         case CHANNEL_FUR { return fur; }
+        case CHANNEL_SELF_SHADOW { return select(vec3f(0.0), vec3f(cast), options.cast_shadow); }
         default { return vec3f(0.0); }
     }
 }

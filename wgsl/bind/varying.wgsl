@@ -1,5 +1,5 @@
 // What goes from vertex to fragment for a surface.
-import package::bind::character::{bangs_from_character, character};
+import package::bind::character::{bangs_from_character, character, shadow_receiver};
 import package::bind::frame::frame;
 import package::bind::material::material;
 import package::bind::surface::{SurfaceInput, SurfaceOptions};
@@ -18,6 +18,7 @@ struct Varying {
     @location(5) @interpolate(flat) face_light: vec4f,
     @location(6) bangs: vec3f,
     @location(7) @interpolate(flat) highlight: vec4f,
+    @location(8) shadow: vec4f,
 }
 
 fn surface_varying(options: SurfaceOptions, v: VertexInput) -> Varying {
@@ -59,10 +60,12 @@ fn surface_varying(options: SurfaceOptions, v: VertexInput) -> Varying {
     if options.layered {
         clip.z = pulled_depth(clip.z, clip.w, material.layer_pull);
     }
-    return Varying(
-        clip, position, world_direction(v, v.frame.x), tangent, v.uv, v.color,
-        face_light, bangs, highlight
-    );
+    let normal = world_direction(v, v.frame.x);
+    var shadow = vec4f(0.0);
+    if options.cast_shadow {
+        shadow = shadow_receiver(v, position, normal);
+    }
+    return Varying(clip, position, normal, tangent, v.uv, v.color, face_light, bangs, highlight, shadow);
 }
 
 // A world direction by the axes of the face: to the character's left, up, forward.
@@ -78,6 +81,7 @@ fn in_face_frame(v: VertexInput, d: vec3f) -> vec3f {
 fn surface_input(in: Varying, front_facing: bool) -> SurfaceInput {
     let normal = select(-in.normal, in.normal, front_facing);
     return SurfaceInput(
-        in.clip_position.xyz, in.world_position, normal, in.tangent, in.uv, in.color, in.face_light, in.bangs, in.highlight
+        in.clip_position.xyz, in.world_position, normal, in.tangent, in.uv, in.color, in.face_light, in.bangs, in.highlight,
+        in.shadow
     );
 }

@@ -15,6 +15,7 @@ struct VertexInput {
     @location(5) world_row_x: vec4f,
     @location(6) world_row_y: vec4f,
     @location(7) world_row_z: vec4f,
+    @builtin(instance_index) instance: u32,
 }
 
 fn world_position(v: VertexInput, position: vec3f) -> vec3f {

@@ -15,9 +15,9 @@ struct BangsVarying {
 }
 
 @vertex
-fn vs_main(v: VertexInput, @builtin(instance_index) instance: u32) -> BangsVarying {
+fn vs_main(v: VertexInput) -> BangsVarying {
     var at = bangs_from_character(v.position);
-    if instance > 0u {
+    if v.instance > 0u {
         at = bangs_from_world(world_position(v, v.position));
     }
     // What stands before the map's range casts from its front.

@@ -8,6 +8,7 @@ pub(crate) mod floor;
 pub(crate) mod opaque;
 pub(crate) mod outline;
 pub(crate) mod prepass;
+pub(crate) mod shadow;
 pub(crate) mod transparent;
 
 use super::{Layouts, Output};
@@ -143,6 +144,7 @@ pub(crate) struct SurfaceFlags {
     pub highlight_apart: bool,
     pub highlight_breakup: bool,
     pub layered: bool,
+    pub cast_shadow: bool,
     pub shade_ramp: bool,
     pub ramp_maps: bool,
     pub ramp_parts: bool,
@@ -228,6 +230,7 @@ impl SurfaceFlags {
             highlight_apart: highlight.is_some_and(|h| h.second_strength > 0.0 && h.second_motion != 1.0),
             highlight_breakup: highlight.is_some_and(|h| h.breakup > 0.0),
             layered: material.layer.is_some(),
+            cast_shadow: toon.is_some() && material.cast_shadow.is_some_and(|s| s.received > 0.0),
             shade_ramp: ramp.is_some(),
             ramp_maps: ramp_maps.is_some(),
             ramp_parts: part_ids.is_some(),
@@ -272,6 +275,7 @@ impl SurfaceFlags {
             ("HIGHLIGHT_APART", self.highlight_apart),
             ("HIGHLIGHT_BREAKUP", self.highlight_breakup),
             ("LAYERED", self.layered),
+            ("CAST_SHADOW", self.cast_shadow),
             ("SHADE_RAMP", self.shade_ramp),
             ("RAMP_MAPS", self.ramp_maps),
             ("RAMP_PARTS", self.ramp_parts),

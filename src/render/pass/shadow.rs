@@ -1,0 +1,226 @@
+//! Depth of characters from the key light, for the shadow of each on itself.
+
+use std::collections::HashMap;
+
+use glam::Vec3;
+
+use super::{DEPTH_FORMAT, SurfaceFlags, vertex_buffers};
+use crate::{
+    Gpu,
+    material::{AlphaMode, Material},
+    render::{Layouts, draw_list, shaders, upload::GpuScene},
+    scene::{MOST_SHADOWED, SelfShadow},
+};
+
+/// Pipelines by what a material's cut needs.
+#[derive(Debug)]
+pub(crate) struct ShadowPass {
+    module: wgpu::ShaderModule,
+    pipelines: HashMap<(SurfaceFlags, bool), wgpu::RenderPipeline>,
+}
+
+/// The maps of a scene's characters, a layer for each.
+#[derive(Debug)]
+pub(crate) struct ShadowMap {
+    settings: SelfShadow,
+    /// Middle and radius of the sphere round a character at rest, character space, metres.
+    pub middle: Vec3,
+    radius: f32,
+    /// As shaders read it.
+    pub view: wgpu::TextureView,
+    layers: Vec<wgpu::TextureView>,
+}
+
+/// How shaders find their place in the maps.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct ShadowRows {
+    /// World axes, unit.
+    pub right: Vec3,
+    pub up: Vec3,
+    pub to_light: Vec3,
+    /// One over the width, metres.
+    pub scale: f32,
+    /// Shares of the width.
+    pub bias: f32,
+    pub spread: f32,
+    /// Character space.
+    pub middle: Vec3,
+    pub layers: u32,
+}
+
+/// What the pass reads and writes.
+pub(crate) struct ShadowInputs<'a> {
+    pub scene: &'a GpuScene,
+    pub frame: &'a wgpu::BindGroup,
+    pub map: &'a ShadowMap,
+}
+
+impl ShadowMap {
+    /// Maps of a character that fills a sphere.
+    pub fn new(gpu: &Gpu, settings: SelfShadow, middle: Vec3, radius: f32) -> Self {
+        let mut map = Self { settings, middle, radius, view: map_texture(gpu, 1, 1), layers: Vec::new() };
+        map.fit(gpu, 1);
+        map
+    }
+
+    /// Whether a crowd of so many needs more layers; they are made then.
+    pub fn fit(&mut self, gpu: &Gpu, characters: usize) -> bool {
+        let wanted = (characters as u32).clamp(1, MOST_SHADOWED);
+        if self.layers.len() as u32 >= wanted {
+            return false;
+        }
+        self.view = map_texture(gpu, self.settings.side.clamp(128, 4096), wanted);
+        let layer = |base_array_layer| {
+            self.view.texture().create_view(&wgpu::TextureViewDescriptor {
+                dimension: Some(wgpu::TextureViewDimension::D2),
+                base_array_layer,
+                array_layer_count: Some(1),
+                ..Default::default()
+            })
+        };
+        self.layers = (0..wanted).map(layer).collect();
+        true
+    }
+
+    /// Places in the maps while the middle stands there and the light so, in the world.
+    pub fn rows(&self, middle: Vec3, to_light: Vec3, characters: usize) -> ShadowRows {
+        let to_light = to_light.normalize_or(Vec3::Z);
+        // The camera's up is the world's, unless the light comes from there.
+        let right = Vec3::Y.cross(to_light).try_normalize().filter(|r| r.is_finite()).unwrap_or(Vec3::X);
+        let texel = 1.0 / self.view.texture().width() as f32;
+        let width = 2.0 * self.radius;
+        ShadowRows {
+            right,
+            up: to_light.cross(right),
+            to_light,
+            scale: 1.0 / width,
+            bias: self.settings.bias_texels.clamp(0.0, 8.0) * texel,
+            // Two taps of a texel each lie half the edge apart.
+            spread: (0.5 * self.settings.soft_width_m / width).max(0.5 * texel),
+            middle,
+            layers: self.layers.len().min(characters) as u32,
+        }
+    }
+}
+
+/// Maps without a character.
+pub(crate) fn map_texture(gpu: &Gpu, side: u32, layers: u32) -> wgpu::TextureView {
+    let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("shadow"),
+        size: wgpu::Extent3d { width: side, height: side, depth_or_array_layers: layers },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: DEPTH_FORMAT,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
+        view_formats: &[],
+    });
+    texture.create_view(&wgpu::TextureViewDescriptor {
+        dimension: Some(wgpu::TextureViewDimension::D2Array),
+        ..Default::default()
+    })
+}
+
+/// Compares a receiver with the map: lit where nothing is nearer to the light.
+pub(crate) fn sampler(gpu: &Gpu) -> wgpu::Sampler {
+    gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+        label: Some("shadow"),
+        mag_filter: wgpu::FilterMode::Linear,
+        min_filter: wgpu::FilterMode::Linear,
+        compare: Some(wgpu::CompareFunction::LessEqual),
+        ..Default::default()
+    })
+}
+
+impl ShadowPass {
+    pub fn new(gpu: &Gpu) -> Self {
+        Self { module: shaders::module(&gpu.device, "shadow"), pipelines: HashMap::new() }
+    }
+
+    /// The pipeline for a material that casts, made on first use.
+    pub fn pipeline(
+        &mut self,
+        gpu: &Gpu,
+        layouts: &Layouts,
+        flags: SurfaceFlags,
+        material: &Material,
+    ) -> wgpu::RenderPipeline {
+        let alpha_test = material.alpha.mode != AlphaMode::Opaque;
+        // Without a cut-out nothing is sampled: one pipeline serves all.
+        let flags = if alpha_test { flags } else { SurfaceFlags::default() };
+        let make = || {
+            let mut constants = flags.constants();
+            constants.push(("ALPHA_TEST", f64::from(u8::from(alpha_test))));
+            let options = || wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
+            gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+                label: Some("shadow"),
+                layout: Some(&layouts.surface),
+                vertex: wgpu::VertexState {
+                    module: &self.module,
+                    entry_point: Some("vs_main"),
+                    compilation_options: options(),
+                    buffers: &vertex_buffers(),
+                },
+                // Cards have no back.
+                primitive: wgpu::PrimitiveState::default(),
+                depth_stencil: Some(wgpu::DepthStencilState {
+                    format: DEPTH_FORMAT,
+                    depth_write_enabled: Some(true),
+                    depth_compare: Some(wgpu::CompareFunction::Less),
+                    stencil: wgpu::StencilState::default(),
+                    // Surfaces along the light, by their own slope.
+                    bias: wgpu::DepthBiasState { constant: 0, slope_scale: 1.5, clamp: 0.0 },
+                }),
+                multisample: wgpu::MultisampleState::default(),
+                fragment: alpha_test.then(|| wgpu::FragmentState {
+                    module: &self.module,
+                    entry_point: Some("fs_main"),
+                    compilation_options: options(),
+                    targets: &[],
+                }),
+                multiview_mask: None,
+                cache: None,
+            })
+        };
+        self.pipelines.entry((flags, alpha_test)).or_insert_with(make).clone()
+    }
+
+    /// Draws each character that has a map into its own.
+    pub fn encode(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        inputs: &ShadowInputs<'_>,
+        timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
+    ) {
+        let count = inputs.map.layers.len().min(inputs.scene.instance_rows.len());
+        for (i, layer) in inputs.map.layers.iter().take(count).enumerate() {
+            // From the beginning of the first pass to the end of the last.
+            let writes = timestamps.clone().map(|t| wgpu::RenderPassTimestampWrites {
+                beginning_of_pass_write_index: t.beginning_of_pass_write_index.filter(|_| i == 0),
+                end_of_pass_write_index: t.end_of_pass_write_index.filter(|_| i + 1 == count),
+                ..t
+            });
+            let writes =
+                writes.filter(|w| w.beginning_of_pass_write_index.is_some() || w.end_of_pass_write_index.is_some());
+            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                label: Some("shadow"),
+                depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                    view: layer,
+                    depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(1.0), store: wgpu::StoreOp::Store }),
+                    stencil_ops: None,
+                }),
+                timestamp_writes: writes,
+                ..Default::default()
+            });
+            // The map itself cannot be read while it is drawn.
+            draw_list::bind_scene(&mut pass, inputs.scene, inputs.frame, &inputs.scene.character_group_without_map);
+            for draw in &inputs.scene.draws {
+                if let Some(pipeline) = &draw.shadow {
+                    pass.set_pipeline(pipeline);
+                    pass.set_bind_group(2, &inputs.scene.material_groups[draw.material], &[]);
+                    pass.draw_indexed(draw.indices.clone(), 0, i as u32..i as u32 + 1);
+                }
+            }
+        }
+    }
+}
