@@ -6,8 +6,8 @@ use glam::Vec3;
 
 use super::hair_band;
 use crate::material::{
-    AlphaMode, Authored, BangsShadow, CastShadow, DepthRim, FacePaint, FaceShadow, FurDetail, Highlight, Layer, Material, Outline,
-    OutlineTint, OutlineWidth, RampMaps, ShadeRamp, Shading, Transition,
+    AlphaMode, Authored, BangsShadow, CastShadow, DepthRim, FacePaint, FaceShadow, FurDetail, Highlight, Layer,
+    Material, Outline, OutlineTint, OutlineWidth, RampMaps, ShadeRamp, Shading, Transition,
 };
 use crate::scene::{Bangs, EyesThrough, Role, Scene, SelfShadow};
 use crate::sdf::{FaceMap, Sides, face_map};
@@ -66,26 +66,18 @@ fn outlines(scene: &mut Scene) {
     }
 }
 
-/// Everything casts on the body but what lies on the eyes. Faces keep to their maps and hair to its round shape: shade of
-/// every lock on the next would break both.
+/// Everything casts on the body but what lies on the eyes. Hair keeps to its round shape, which the shade of every lock on
+/// the next would break; of a face the neck receives.
 fn self_shadow(scene: &mut Scene) {
     scene.self_shadow = Some(SelfShadow::default());
     let of = |scene: &Scene, roles: &[Role]| -> BTreeSet<usize> {
         roles.iter().flat_map(|role| materials_of(scene, *role)).collect()
     };
-    let casts = of(scene, &[
-        Role::Face,
-        Role::Skin,
-        Role::Hair,
-        Role::HairFront,
-        Role::Cloth,
-        Role::Accessory,
-        Role::Other,
-    ]);
-    let receives = of(scene, &[Role::Skin, Role::Cloth, Role::Accessory, Role::Other]);
-    let face = of(scene, &[Role::Face]);
+    let casts =
+        of(scene, &[Role::Face, Role::Skin, Role::Hair, Role::HairFront, Role::Cloth, Role::Accessory, Role::Other]);
+    let receives = of(scene, &[Role::Face, Role::Skin, Role::Cloth, Role::Accessory, Role::Other]);
     for index in casts {
-        let received = f32::from(u8::from(receives.contains(&index) && !face.contains(&index)));
+        let received = f32::from(u8::from(receives.contains(&index)));
         let material = &mut scene.materials[index];
         if material.alpha.mode != AlphaMode::Blend {
             material.cast_shadow = Some(CastShadow { casts: true, received });

@@ -3,7 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 /// Part of a material in [`SelfShadow`](crate::scene::SelfShadow). Received shadow is shade: it has exactly the shade's
-/// colour, or that of the dark end of a [`ShadeRamp`](super::ShadeRamp).
+/// colour, or that of the dark end of a [`ShadeRamp`](super::ShadeRamp). A face with a
+/// [`FaceShadow`](super::FaceShadow) receives it only where its map leaves it to normal shading: on the neck.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct CastShadow {

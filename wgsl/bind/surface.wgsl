@@ -278,11 +278,12 @@ fn shade_surface(options: SurfaceOptions, in: SurfaceInput) -> vec4f {
             soft = face_shading(soft, face.soft, face.region, face.strength * directional);
         }
     }
-    var cast = 1.0;
+    var own_lit = 1.0;
     if options.cast_shadow {
-        cast = shadow_lit(in.shadow, max(shading, soft * f32(options.shade_ramp)) > 0.0);
-        // Of the key light alone.
-        let left = 1.0 - (1.0 - cast) * material.shadow_received * directional;
+        own_lit = shadow_lit(in.shadow, max(shading, soft * f32(options.shade_ramp)) > 0.0);
+        // Of the key light alone, and on a face with a map only where that leaves it to normal shading.
+        let share = directional * select(1.0, 1.0 - of_face, options.face_shadow);
+        let left = 1.0 - (1.0 - own_lit) * material.shadow_received * share;
         shading *= left;
         soft *= left;
     }
@@ -397,7 +398,7 @@ fn shade_surface(options: SurfaceOptions, in: SurfaceInput) -> vec4f {
         color += material.depth_rim_color * own * frame.light_color * contour;
     }
     if options.channel != 0u {
-        color = channel_color(options, shading, tint, paint, shine, bangs, contour, soft, fur, cast);
+        color = channel_color(options, shading, tint, paint, shine, bangs, contour, soft, fur, own_lit);
     }
     return vec4f(color, base.a);
 }
@@ -475,7 +476,7 @@ fn ramp_color(options: SurfaceOptions, uv: vec4f, lit: vec3f, shade: vec3f, plac
 // What one of the debug channels shows.
 fn channel_color(
     options: SurfaceOptions, shading: f32, tint: vec3f, paint: vec3f, shine: f32, bangs: f32, contour: f32,
-    place: f32, fur: vec3f, cast: f32
+    place: f32, fur: vec3f, own_lit: f32
 ) -> vec3f {
     switch options.channel {
         case CHANNEL_FACE_SHADOW { return vec3f(shading) * select(vec3f(0.25), vec3f(1.0), options.face_shadow); }
@@ -487,7 +488,7 @@ fn channel_color(
         case CHANNEL_DEPTH_RIM { return vec3f(contour); }
         case CHANNEL_SHADE_RAMP { return select(vec3f(0.0), vec3f(place), options.shade_ramp); }
         case CHANNEL_FUR { return fur; }
-        case CHANNEL_SELF_SHADOW { return select(vec3f(0.0), vec3f(cast), options.cast_shadow); }
+        case CHANNEL_SELF_SHADOW { return select(vec3f(0.0), vec3f(own_lit), options.cast_shadow); }
         default { return vec3f(0.0); }
     }
 }

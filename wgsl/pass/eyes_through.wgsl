@@ -42,7 +42,7 @@ fn vs_main(v: VertexInput) -> ThroughVarying {
 fn fs_main(in: ThroughVarying, @builtin(front_facing) front_facing: bool) -> @location(0) vec4f {
     let surface = Varying(
         in.clip_position, in.world_position, in.normal, in.tangent, in.uv, in.color, in.face_light, in.bangs,
-        in.highlight
+        in.highlight, vec4f(0.0)
     );
     let options = surface_options();
     var color = shade_surface(options, surface_input(surface, front_facing)).rgb;
