@@ -7,7 +7,8 @@ use hikage::{Channel, Renderer, View};
 mod support;
 use support::{anime_heroine, gpu, pixel};
 
-const SHADING: [Channel; 9] = [
+const SHADING: [Channel; 10] = [
+    Channel::SelfShadow,
     Channel::FaceShadow,
     Channel::ShadeRamp,
     Channel::Fur,
@@ -35,8 +36,9 @@ fn every_channel_shows_its_part() {
     let before = renderer.render(&mut uploaded, &view).expect("a picture");
     let pictures =
         SHADING.map(|channel| renderer.render(&mut uploaded, &View { channel, ..view.clone() }).expect("a channel"));
-    // Face, ramp, fur, paint, highlight, bangs, layer, rim, eyes: how much of a portrait each covers.
+    // Own shadow, face, ramp, fur, paint, highlight, bangs, layer, rim, eyes: how much of a portrait each covers.
     let ranges = [
+        (0.02, 0.9),
         (0.2, 0.9),
         (0.2, 0.9),
         (0.02, 0.2),
@@ -56,7 +58,7 @@ fn every_channel_shows_its_part() {
         assert!(pictures[..i].iter().all(|b| a.pixels != b.pixels), "{:?} is another channel", SHADING[i]);
     }
     // White in light, dark in shade: the two sides of her face.
-    let [lit, dark] = [112, 146].map(|x| pixel(&pictures[0], x, 205)[0]);
+    let [lit, dark] = [112, 146].map(|x| pixel(&pictures[1], x, 205)[0]);
     assert!(lit > 240 && dark < 40, "{lit} and {dark}");
     // The picture itself is as it was.
     let after = renderer.render(&mut uploaded, &view).expect("a picture");

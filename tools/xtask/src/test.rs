@@ -17,7 +17,7 @@ const SWIFTSHADER: [&str; 3] = [
 ];
 
 /// Tests that say something about a driver; of the whole workspace, so that nothing is built anew.
-const ON_SECOND_DRIVER: [&str; 24] = [
+const ON_SECOND_DRIVER: [&str; 26] = [
     "test",
     "--workspace",
     "--test",
@@ -42,6 +42,8 @@ const ON_SECOND_DRIVER: [&str; 24] = [
     "laws",
     "--test",
     "oracles",
+    "--test",
+    "self_shadow",
 ];
 
 pub(crate) fn run(args: &[String]) -> Outcome {
