@@ -19,10 +19,10 @@ pub(super) fn apply(scene: &mut Scene, painted: Option<&Sides>) {
     scene.bangs = Some(Bangs::default());
     scene.eyes_through = Some(EyesThrough::default());
     outlines(scene);
-    self_shadow(scene);
     round_hair(scene);
     hair(scene);
     faces(scene, painted);
+    self_shadow(scene);
     eyes(scene);
     for material in materials_of(scene, Role::Skin) {
         scene.materials[material].transition = Some(Transition::default());
@@ -75,10 +75,13 @@ fn self_shadow(scene: &mut Scene) {
     };
     let casts =
         of(scene, &[Role::Face, Role::Skin, Role::Hair, Role::HairFront, Role::Cloth, Role::Accessory, Role::Other]);
+    let face = of(scene, &[Role::Face]);
     let receives = of(scene, &[Role::Face, Role::Skin, Role::Cloth, Role::Accessory, Role::Other]);
     for index in casts {
-        let received = f32::from(u8::from(receives.contains(&index)));
         let material = &mut scene.materials[index];
+        // A face without a map would get all of it.
+        let is_bare = face.contains(&index) && material.face_shadow.is_none();
+        let received = f32::from(u8::from(receives.contains(&index) && !is_bare));
         if material.alpha.mode != AlphaMode::Blend {
             material.cast_shadow = Some(CastShadow { casts: true, received });
         }

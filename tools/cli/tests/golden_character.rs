@@ -148,6 +148,11 @@ fn the_anime_look_is_as_before() {
         studio.light_deg = [light, 35.0];
         studio.check(&format!("anime-portrait-{name}"), [256; 2], Framing::Portrait, yaw, Stance::Relaxed, None);
     }
+    // Her whole body in its own shadow.
+    for (name, yaw, light) in [("left", 25.0, -45.0), ("right", -25.0, 60.0)] {
+        studio.light_deg = [light, 40.0];
+        studio.check(&format!("anime-full-{name}"), [192, 384], Framing::Full, yaw, Stance::Relaxed, None);
+    }
     // Light from below and from high above.
     for pitch in [-30, 60] {
         studio.light_deg = [-60.0, pitch as f32];
@@ -168,6 +173,7 @@ fn the_anime_look_is_as_before() {
         ("face-shadow", Channel::FaceShadow),
         ("shade-ramp", Channel::ShadeRamp),
         ("fur", Channel::Fur),
+        ("self-shadow", Channel::SelfShadow),
         ("face-paint", Channel::FacePaint),
         ("highlight", Channel::Highlight),
         ("bangs-shadow", Channel::BangsShadow),
@@ -176,7 +182,8 @@ fn the_anime_look_is_as_before() {
         ("eyes-through", Channel::EyesThrough),
     ] {
         studio.channel = channel;
-        let framing = if matches!(channel, Channel::Highlight | Channel::DepthRim | Channel::Fur) {
+        let framing = if matches!(channel, Channel::Highlight | Channel::DepthRim | Channel::Fur | Channel::SelfShadow)
+        {
             Framing::Portrait
         } else {
             Framing::Face
