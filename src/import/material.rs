@@ -97,7 +97,7 @@ fn read_common(json: &Json, material: &mut Material, textures: &mut Textures, wa
             [one, other] => one.or(other).map(|ramp| [ramp; 2]),
         };
         let rows = maps.f32_or("rampRows", 1.0).clamp(1.0, 256.0) as u32;
-        authored.ramp_rows = [rows, (maps.f32_or("rampRow", 0.0).max(0.0) as u32).min(rows - 1)];
+        authored.ramp_rows = [rows, (maps.f32_or("rampRow", 0.0).max(0.0) as u32).min(rows.saturating_sub(1))];
     }
 
     material.double_sided = json.bool("doubleSided")?.unwrap_or(false);
