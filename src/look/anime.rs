@@ -66,24 +66,21 @@ fn outlines(scene: &mut Scene) {
     }
 }
 
-/// Everything casts on the body but what lies on the eyes. Hair keeps to its round shape, which the shade of every lock on
-/// the next would break; of a face the neck receives.
+/// Head, body and clothes cast on body and clothes, and of a face on the neck. Locks of hair and tufts of fur do not: nobody
+/// draws the shade of each, and their edges would tear all others.
 fn self_shadow(scene: &mut Scene) {
     scene.self_shadow = Some(SelfShadow::default());
     let of = |scene: &Scene, roles: &[Role]| -> BTreeSet<usize> {
         roles.iter().flat_map(|role| materials_of(scene, *role)).collect()
     };
-    let casts =
-        of(scene, &[Role::Face, Role::Skin, Role::Hair, Role::HairFront, Role::Cloth, Role::Accessory, Role::Other]);
     let face = of(scene, &[Role::Face]);
-    let receives = of(scene, &[Role::Face, Role::Skin, Role::Cloth, Role::Accessory, Role::Other]);
-    for index in casts {
+    for index in of(scene, &[Role::Face, Role::Skin, Role::Cloth, Role::Accessory, Role::Other]) {
         let material = &mut scene.materials[index];
         // A face without a map would get all of it.
         let is_bare = face.contains(&index) && material.face_shadow.is_none();
-        let received = f32::from(u8::from(receives.contains(&index) && !is_bare));
+        let received = if is_bare { 0.0 } else { 1.0 };
         if material.alpha.mode != AlphaMode::Blend {
-            material.cast_shadow = Some(CastShadow { casts: true, received });
+            material.cast_shadow = Some(CastShadow { casts: material.alpha.mode == AlphaMode::Opaque, received });
         }
     }
 }

@@ -8,7 +8,8 @@
 pub struct SelfShadow {
     /// Texels along a side of a map. Range 128..4096. Default: 1024.
     pub side: u32,
-    /// Width of the soft edge, metres; no less than a texel. Range 0..0.05. Default: 0.004.
+    /// Width that edges are smoothed over, metres; no less than three texels. What is smaller casts no shadow of its own, and
+    /// a third of the width is soft. Range 0..0.05. Default: 0.01.
     pub soft_width_m: f32,
     /// How far a receiver is moved along its normal before it is tested, texels: too little and surfaces shade themselves in
     /// stripes, too much and thin parts cast none. Range 0..8. Default: 2.
@@ -20,6 +21,6 @@ pub const MOST_SHADOWED: u32 = 8;
 
 impl Default for SelfShadow {
     fn default() -> Self {
-        Self { side: 1024, soft_width_m: 0.004, bias_texels: 2.0 }
+        Self { side: 1024, soft_width_m: 0.01, bias_texels: 2.0 }
     }
 }

@@ -34,7 +34,7 @@ struct Character {
     // Distance by which a receiver is moved along its normal, shares of the width.
     shadow_bias: f32,
     shadow_to_light: vec3f,
-    // Half the distance between two taps, shares of the width.
+    // Distance between two taps, shares of the width.
     shadow_spread: f32,
     // Its middle, character space.
     shadow_middle: vec3f,
@@ -89,13 +89,13 @@ fn shadow_lit(at: vec4f, wanted: bool) -> f32 {
     let layer = u32(at.w + 0.5);
     let is_outside = any(at.xy <= vec2f(0.0)) || any(at.xy >= vec2f(1.0)) || layer >= character.shadow_layers;
     // A count of 0 rather than a branch: software rasterizers walk both sides of branches, but leave loops early.
-    let taps = select(4, 0, is_outside || !wanted);
-    var lit = select(0.0, 4.0, taps == 0);
+    let taps = select(9, 0, is_outside || !wanted);
+    var lit = select(0.0, 9.0, taps == 0);
     for (var i = 0; i < taps; i++) {
-        let offset = (vec2f(f32(i % 2), f32(i / 2)) * 2.0 - 1.0) * character.shadow_spread;
+        let offset = (vec2f(f32(i % 3), f32(i / 3)) - 1.0) * character.shadow_spread;
         lit += textureSampleCompareLevel(shadow_map, shadow_sampler, at.xy + offset, layer, at.z);
     }
-    return shadow_edge(lit * 0.25);
+    return shadow_edge(lit / 9.0);
 }
 
 // Share of light that a layer lets through to a place of the map. What lies beyond its border is lit, and so is what the

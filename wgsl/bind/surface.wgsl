@@ -282,7 +282,8 @@ fn shade_surface(options: SurfaceOptions, in: SurfaceInput) -> vec4f {
     if options.cast_shadow {
         own_lit = shadow_lit(in.shadow, max(shading, soft * f32(options.shade_ramp)) > 0.0);
         // Of the key light alone, and on a face with a map only where that leaves it to normal shading.
-        let share = directional * select(1.0, 1.0 - of_face, options.face_shadow);
+        // The map's region fades over the jaw, under which shade must be whole.
+        let share = directional * select(1.0, saturate(4.0 - 4.0 * of_face), options.face_shadow);
         let left = 1.0 - (1.0 - own_lit) * material.shadow_received * share;
         shading *= left;
         soft *= left;

@@ -6,7 +6,7 @@ fn shadow_place(d: vec3f, right: vec3f, up: vec3f, to_light: vec3f, scale: f32) 
     return vec3f(dot(right, d) * scale + 0.5, 0.5 - dot(up, d) * scale, 0.5 - dot(to_light, d) * scale);
 }
 
-// Share of light with a drawn edge: the middle half of what filtering spreads.
+// Share of light with a drawn edge: the middle of what filtering spreads, which rounds teeth and corners off.
 fn shadow_edge(lit: f32) -> f32 {
-    return smoothstep(0.25, 0.75, lit);
+    return smoothstep(0.35, 0.65, lit);
 }

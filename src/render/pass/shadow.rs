@@ -95,8 +95,8 @@ impl ShadowMap {
             to_light,
             scale: 1.0 / width,
             bias: self.settings.bias_texels.clamp(0.0, 8.0) * texel,
-            // Two taps of a texel each lie half the edge apart.
-            spread: (0.5 * self.settings.soft_width_m / width).max(0.5 * texel),
+            // Three taps of a texel each span the edge.
+            spread: (self.settings.soft_width_m / (3.0 * width)).max(texel),
             middle,
             layers: self.layers.len().min(characters) as u32,
         }

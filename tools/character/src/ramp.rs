@@ -10,9 +10,9 @@ use crate::picture::{Picture, rgb, smoothstep};
 /// cool.
 const ROWS: &[(&[&str], [[u32; 2]; 2])] = &[
     (&["Face", "Mouth", "Body_Skin"], [[0xf7c9b6, 0xffb8a2], [0xf0c8cc, 0xf8b8b2]]),
-    (&["Hair"], [[0xd9bcc9, 0xf2b8ae], [0xb7b4e6, 0xb9a4dc]]),
+    (&["Hair"], [[0xcfbdd8, 0xe2bcc8], [0xb7b4e6, 0xb9a4dc]]),
     (&["Jacket", "Skirt", "Stocking", "Cloth_Bow", "Cloth_Shorts"], [[0xa88aa6, 0xb8706e], [0x8a86cc, 0x7a6bb8]]),
-    (&["Cloth_Blouse", "Jacket_Fur", "Jacket_Cuff"], [[0xe6c4bc, 0xf2bfa0], [0xc2bfe8, 0xc9b4e0]]),
+    (&["Cloth_Blouse", "Jacket_Fur", "Jacket_Cuff"], [[0xe4cdd2, 0xf2d0c2], [0xc2bfe8, 0xc9b4e0]]),
     (&["Boots", "Cloth_Belt", "Jacket_Lining"], [[0xb8856e, 0xcc7a4e], [0x9a86b4, 0x9c6c8c]]),
     (&["Metal"], [[0x8a4e2a, 0xb06a30], [0x6e5a7c, 0x8c6a6a]]),
     (&["Accessory"], [[0xd89a78, 0xe8a070], [0xa8a4d8, 0xc0a0d0]]),

@@ -16,6 +16,7 @@ mod setup;
 mod sheet;
 mod shot;
 mod spinner;
+mod texture;
 
 use std::panic::AssertUnwindSafe;
 
@@ -58,6 +59,8 @@ enum Command {
     Look(look::Args),
     /// Author threshold maps of painted face shadows.
     Sdf(sdf::Args),
+    /// Paint maps for looks by rule. Needs no GPU.
+    Texture(texture::Args),
     /// Tell what a model, an image or a shader holds, and what will look wrong. Needs no GPU.
     Inspect(inspect::Args),
     /// Measure the time of a frame, against the same meshes drawn unlit.
@@ -107,6 +110,7 @@ fn run(command: Command) -> Result<(), Failure> {
         Command::Sheet(args) => sheet::run(&args),
         Command::Look(args) => look::run(&args),
         Command::Sdf(args) => sdf::run(&args),
+        Command::Texture(args) => texture::run(&args),
         Command::Inspect(args) => inspect::run(&args),
         Command::Bench(args) => bench::run(&args),
         Command::Adapters(args) => adapters::run(&args),
