@@ -30,6 +30,12 @@ pub(super) fn texture_uses(material: &Material) -> Vec<(&'static str, usize, Use
     add("uv mask", material.uv_animation.mask.map(|t| t.texture), Use::Linear);
     add("highlight", material.authored.highlight.map(|t| t.texture), Use::Linear);
     add("face paint", material.authored.face_paint.map(|t| t.texture), Use::Linear);
+    add("detail normal", material.authored.detail_normal.map(|t| t.texture), Use::Linear);
+    add("part ids", material.authored.part_ids.map(|t| t.texture), Use::Linear);
+    if let Some([warm, cool]) = material.authored.ramps {
+        add("warm ramp", Some(warm.texture), Use::Srgb);
+        add("cool ramp", Some(cool.texture), Use::Srgb);
+    }
     uses
 }
 
