@@ -22,18 +22,18 @@ const TOLERANCE: Tolerance = Tolerance { channel: 8, outliers: 0.008, blob: 20, 
 /// way.
 const FINER: u32 = 4;
 
-/// The mean of each square of [`FINER`] pixels a side.
-fn shrunk(picture: &Image) -> Image {
-    let (width, height) = (picture.width / FINER, picture.height / FINER);
+/// The mean of each square of so many pixels a side.
+fn shrunk(picture: &Image, finer: u32) -> Image {
+    let (width, height) = (picture.width / finer, picture.height / finer);
     let mut sums = vec![0u32; (width * height * 4) as usize];
     for (y, row) in picture.pixels.chunks_exact(picture.width as usize * 4).enumerate() {
-        let first = y as u32 / FINER * width * 4;
+        let first = y as u32 / finer * width * 4;
         for (x, pixel) in row.chunks_exact(4).enumerate() {
-            let at = (first + x as u32 / FINER * 4) as usize;
+            let at = (first + x as u32 / finer * 4) as usize;
             sums[at..at + 4].iter_mut().zip(pixel).for_each(|(sum, c)| *sum += u32::from(*c));
         }
     }
-    let count = FINER * FINER;
+    let count = finer * finer;
     let pixels = sums.iter().map(|sum| ((sum + count / 2) / count) as u8).collect();
     Image { width, height, pixels, ..picture.clone() }
 }
@@ -126,7 +126,7 @@ impl Studio {
             camera.eye = camera.target + away.normalize() * metres;
             camera.fov_y_rad = 2.0 * (half_height / metres).atan();
         }
-        let picture = shrunk(&self.renderer.render(&mut self.gpu_scene, &view).expect("a picture"));
+        let picture = shrunk(&self.renderer.render(&mut self.gpu_scene, &view).expect("a picture"), FINER);
         if let Err(fault) = self.goldens.check(&format!("character-{name}"), &picture, &TOLERANCE) {
             self.faults.push(fault.to_string());
         }
@@ -172,7 +172,6 @@ fn the_anime_look_is_as_before() {
     for (name, channel) in [
         ("face-shadow", Channel::FaceShadow),
         ("shade-ramp", Channel::ShadeRamp),
-        ("fur", Channel::Fur),
         ("self-shadow", Channel::SelfShadow),
         ("face-paint", Channel::FacePaint),
         ("highlight", Channel::Highlight),
@@ -182,8 +181,7 @@ fn the_anime_look_is_as_before() {
         ("eyes-through", Channel::EyesThrough),
     ] {
         studio.channel = channel;
-        let framing = if matches!(channel, Channel::Highlight | Channel::DepthRim | Channel::Fur | Channel::SelfShadow)
-        {
+        let framing = if matches!(channel, Channel::Highlight | Channel::DepthRim | Channel::SelfShadow) {
             Framing::Portrait
         } else {
             Framing::Face
@@ -199,15 +197,19 @@ fn the_preview_sheet_of_her_face_shadow_is_as_before() {
     let [project, sheet] = ["preview.sdf.toml", "preview.png"].map(|name| folder.join(name));
     std::fs::write(&project, sdf::SOURCE).expect("writes");
     let mut command = Command::new(env!("CARGO_BIN_EXE_hikage"));
-    command.args(["sdf", "preview"]).arg(&project).arg("-o").arg(&sheet).args(["--panel", "256"]);
+    command.args(["sdf", "preview"]).arg(&project).arg("-o").arg(&sheet).args(["--panel", "384"]);
     if let Ok(adapter) = std::env::var("HIKAGE_ADAPTER") {
         command.args(["--adapter", &adapter]);
     }
     let output = command.output().expect("runs");
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let sheet = read_png(&sheet).expect("a sheet");
-    assert!(sheet.width % FINER == 0 && sheet.height % FINER == 0, "{} x {}", sheet.width, sheet.height);
-    goldens().check("character-face-shadow-sheet", &shrunk(&sheet), &TOLERANCE).unwrap_or_else(|e| panic!("{e}"));
+    // Small heads are edges all over.
+    let finer = 2 * FINER;
+    assert!(sheet.width % finer == 0 && sheet.height % finer == 0, "{} x {}", sheet.width, sheet.height);
+    goldens()
+        .check("character-face-shadow-sheet", &shrunk(&sheet, finer), &TOLERANCE)
+        .unwrap_or_else(|e| panic!("{e}"));
 }
 
 /// What each mesh is taken for. No look file says so: names, bones and morphs do.
