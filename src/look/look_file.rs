@@ -51,9 +51,10 @@ const MAX_BYTES: u64 = 1 << 20;
 /// ```
 ///
 /// Sections and keys are those of [`Material`](crate::material::Material), [`Bangs`](crate::scene::Bangs),
-/// [`SelfShadow`](crate::scene::SelfShadow) and [`EyesThrough`](crate::scene::EyesThrough). What a file does not name stays as it is. Instead of `_rad` a key may end in
-/// `_deg`, instead of `_m` in `_cm` or `_mm`; a colour may be `"#rrggbb"` (sRGB) or linear numbers; a texture is a file
-/// beside the look file. A name or key that does not exist is an error with the nearest one that does.
+/// [`SelfShadow`](crate::scene::SelfShadow) and [`EyesThrough`](crate::scene::EyesThrough). What a file does not name stays
+/// as it is. Instead of `_rad` a key may end in `_deg`, instead of `_m` in `_cm` or `_mm`; a colour may be `"#rrggbb"` (sRGB)
+/// or linear numbers; a texture is a file beside the look file. A name or key that does not exist is an error with the
+/// nearest one that does.
 #[derive(Clone, Debug, Default)]
 pub struct LookFile {
     path: PathBuf,

@@ -105,7 +105,8 @@ pub enum TintSource {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct PartColors {
-    /// Part ids, linear: the number of a part in the red channel, from 1 on; others keep the colour of the surface.
+    /// Part ids, linear: the number of a part in the red channel, from 1 on; others keep the colour of the surface. A
+    /// [`ShadeRamp`](super::ShadeRamp) that has part ids lends its map: a material has one.
     pub part_ids: TextureRef,
     /// Colour of each part, linear. Default: black.
     pub colors: [[f32; 3]; MAX_PARTS],
