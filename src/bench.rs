@@ -14,6 +14,7 @@ use crate::{
         pass::{
             eyes_through::EyesThroughInputs,
             floor::{FloorInputs, FloorPass},
+            fluff::FluffInputs,
             opaque::OpaqueInputs,
             outline::OutlineInputs,
             transparent::TransparentInputs,
@@ -93,7 +94,7 @@ pub struct BenchReport {
 }
 
 const TIMEOUT: Duration = Duration::from_secs(120);
-const TIMED_PASSES: [&str; 5] = ["deform", "bangs shadow", "shadow", "depth", "colour"];
+const TIMED_PASSES: [&str; 7] = ["deform", "bangs shadow", "shadow", "depth", "glow", "colour", "post"];
 
 /// A scene that is ready to be timed: frames and floor frames with the same triangles, targets and pose.
 pub struct Stage<'a> {
@@ -141,6 +142,7 @@ impl<'a> Stage<'a> {
             let scene = &stage.uploaded;
             stage.renderer.opaque.encode(pass, &OpaqueInputs { scene });
             stage.renderer.outline.encode(pass, &OutlineInputs { scene });
+            stage.renderer.fluff.encode(pass, &FluffInputs { scene, px_per_m: stage.view.px_per_m() });
             stage.renderer.eyes_through.encode(pass, &EyesThroughInputs { scene });
             stage.renderer.transparent.encode(pass, &TransparentInputs { scene });
         })
@@ -165,21 +167,29 @@ impl<'a> Stage<'a> {
             true,
             of_frame(self.uploaded.bangs.is_some()),
             of_frame(self.uploaded.shadow.is_some()),
-            of_frame(self.uploaded.has_depth_rim),
+            of_frame(!self.uploaded.prepass.is_empty()),
+            of_frame(self.uploaded.post.is_some_and(|p| p.bloom.is_some())),
             true,
+            of_frame(self.uploaded.post.is_some()),
         ];
         self.renderer.encode_deform(&mut encoder, &mut self.uploaded, self.clock.compute_writes());
         if prepare {
             self.renderer.encode_bangs_shadow(&mut encoder, &self.uploaded, self.clock.render_writes(1));
             self.renderer.encode_shadow(&mut encoder, &self.uploaded, self.clock.render_writes(2));
-            self.renderer.encode_depth(&mut encoder, &self.uploaded, self.clock.render_writes(3));
+            self.renderer.encode_prepass(&mut encoder, &self.uploaded, self.clock.render_writes(3));
+            self.renderer.encode_glow(&mut encoder, &self.uploaded, self.clock.render_writes(4));
         }
         {
-            let writes = self.clock.render_writes(4);
-            let mut pass = self.renderer.begin_color_pass(&mut encoder, &self.view, &self.target, writes);
+            let writes = self.clock.render_writes(5);
+            let posts = of_frame(self.uploaded.post.is_some());
+            let mut pass = self.renderer.begin_color_pass(&mut encoder, &self.view, &self.target, posts, writes);
             let scene = &self.uploaded;
             draw_list::bind_scene(&mut pass, scene, self.renderer.color_frame_group(scene), &scene.character_group);
             record(&mut pass, self);
+        }
+        if prepare {
+            let writes = self.clock.render_writes(6);
+            self.renderer.encode_post(&mut encoder, &self.uploaded, &self.view, &self.target, writes);
         }
         self.clock.resolve(&mut encoder, timed);
         self.gpu.queue.submit([encoder.finish()]);

@@ -301,8 +301,8 @@ fn emission_adds_light_of_its_own() {
             [0, 0, 0, 255]
         }
     });
-    scene.materials[0].emission = Emission { color: [0.0, 0.3, 0.1], texture: None };
-    scene.materials[1].emission = Emission { color: [0.1, 0.9, 0.9], texture: Some(picture) };
+    scene.materials[0].emission = Emission { color: [0.0, 0.3, 0.1], ..Emission::default() };
+    scene.materials[1].emission = Emission { color: [0.1, 0.9, 0.9], texture: Some(picture), ..Emission::default() };
     scene.materials[2] = Material { shading: Shading::Unlit, ..two_tone() };
     check("emission", &scene, &row_view(3));
 }

@@ -240,7 +240,11 @@ fn shading_normals(
 }
 
 fn uvs(source: &Source, cx: &Context, used: &[u32], warnings: &mut Warnings) -> Vec<Vec<[f32; 2]>> {
-    let sets = source.material.and_then(|m| cx.uv_sets.get(m)).map_or(&[][..], Vec::as_slice);
+    let mut sets = source.material.and_then(|m| cx.uv_sets.get(m)).map_or(&[][..], Vec::as_slice);
+    if sets.is_empty() && source.uvs.contains_key(&0) {
+        // Looks read the coordinates of a surface without a texture, too: strands, sparks, what burns.
+        sets = &[0];
+    }
     sets.iter()
         .map(|set| match source.uvs.get(set).and_then(|a| cx.accessors.get(*a)) {
             Some(accessor) => {

@@ -1,6 +1,8 @@
 //! Materials: what glTF says of all of them, then the one shading that each has.
 
-use crate::material::{Alpha, AlphaMode, Base, Emission, Material, NormalMap, Origin, Shading, TextureRef, Toon};
+use crate::material::{
+    Alpha, AlphaMode, Base, Emission, Material, NormalMap, Origin, Shading, Substance, TextureRef, Toon,
+};
 
 use super::fault::{Result, quoted};
 use super::json::Json;
@@ -79,7 +81,8 @@ fn read_common(json: &Json, material: &mut Material, textures: &mut Textures, wa
     }
     let color = json.floats("emissiveFactor")?.unwrap_or([0.0; 3]);
     let color = color.map(|c: f32| (c * strength).clamp(0.0, 1e6));
-    material.emission = Emission { color, texture: textures.info(json, "emissiveTexture", warnings)? };
+    material.emission =
+        Emission { color, texture: textures.info(json, "emissiveTexture", warnings)?, ..Emission::default() };
 
     // Textures for looks, which glTF and MToon have no place for. Extras of others may hold anything.
     if let Some(maps) = json.get("extras").and_then(|e| e.get("hikage")).filter(Json::is_object) {
@@ -91,6 +94,10 @@ fn read_common(json: &Json, material: &mut Material, textures: &mut Textures, wa
         authored.face_paint = textures.info(&maps, "facePaint", warnings)?;
         authored.detail_normal = textures.info(&maps, "detailNormal", warnings)?;
         authored.part_ids = textures.info(&maps, "partId", warnings)?;
+        authored.highlight_shape = textures.info(&maps, "highlightShape", warnings)?;
+        authored.inclusions = textures.info(&maps, "inclusions", warnings)?;
+        authored.heat = textures.info(&maps, "heat", warnings)?;
+        authored.substance = maps.str("substance")?.and_then(Substance::from_name);
         let ramps = [textures.info(&maps, "rampWarm", warnings)?, textures.info(&maps, "rampCool", warnings)?];
         authored.ramps = match ramps {
             [Some(warm), Some(cool)] => Some([warm, cool]),
@@ -136,6 +143,9 @@ fn texture_refs(material: &mut Material) -> impl Iterator<Item = &mut TextureRef
         material.authored.face_paint.as_mut(),
         material.authored.detail_normal.as_mut(),
         material.authored.part_ids.as_mut(),
+        material.authored.highlight_shape.as_mut(),
+        material.authored.inclusions.as_mut(),
+        material.authored.heat.as_mut(),
     ]
     .into_iter()
     .chain(toon)

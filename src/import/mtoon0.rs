@@ -145,7 +145,7 @@ pub(super) fn apply(
     // Unity's HDR colours are gamma-encoded as well; above 1 it decodes with a plain power of 2.2.
     let [er, eg, eb, _] = vector(&p.json, "_EmissionColor", [0.0; 4]);
     let [er, eg, eb] = [er, eg, eb].map(|c| if c > 1.0 { c.powf(2.2) } else { linear_from_srgb(c) });
-    material.emission = Emission { color: [er, eg, eb], texture: texture.get("_EmissionMap")? };
+    material.emission = Emission { color: [er, eg, eb], texture: texture.get("_EmissionMap")?, ..Emission::default() };
     material.shading = Shading::Toon(toon(&p.json, &floats, main, texture.get("_ShadeTexture")?));
     material.matcap = texture.get("_SphereAdd")?.map(|t| Matcap { texture: t.texture, color: [1.0; 3] });
     material.rim = Rim {

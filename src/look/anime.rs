@@ -6,10 +6,11 @@ use glam::Vec3;
 
 use super::hair_band;
 use crate::material::{
-    AlphaMode, Authored, BangsShadow, CastShadow, DepthRim, FacePaint, FaceShadow, FurDetail, Highlight, Layer,
-    Material, Outline, OutlineTint, OutlineWidth, RampMaps, ShadeRamp, Shading, Transition,
+    AlphaMode, Authored, BangsShadow, CastShadow, DepthRim, Diamond, FacePaint, FaceShadow, Fire, Fluff, FurDetail,
+    Gem, Glow, Highlight, Layer, Material, Outline, OutlineTint, OutlineWidth, RampMaps, ShadeRamp, Shading,
+    ShapedHighlight, Sparkle, Stocking, Substance, Transition,
 };
-use crate::scene::{Bangs, EyesThrough, Role, Scene, SelfShadow};
+use crate::scene::{Bangs, Bloom, EyesThrough, Post, Role, Scene, SelfShadow};
 use crate::sdf::{FaceMap, Sides, face_map};
 
 /// Materials that get a face's shadow: characters have one to three, and a file of thousands must not fill the memory.
@@ -28,6 +29,8 @@ pub(super) fn apply(scene: &mut Scene, painted: Option<&Sides>) {
         scene.materials[material].transition = Some(Transition::default());
     }
     painted_shade(scene);
+    substances(scene);
+    post(scene);
     let shadow = BangsShadow { color: [0.78, 0.5, 0.52], ..BangsShadow::default() };
     for material in materials_of(scene, Role::Mouth) {
         scene.materials[material].bangs_shadow = Some(shadow);
@@ -188,6 +191,51 @@ fn painted_shade(scene: &mut Scene) {
             material.transition = None;
         }
         material.fur_detail = detail_normal.map(|detail_normal| FurDetail { detail_normal, ..FurDetail::default() });
+    }
+}
+
+/// Metal, stones, fire and fluff, where the file says so.
+fn substances(scene: &mut Scene) {
+    for material in &mut scene.materials {
+        let Authored { highlight_shape, inclusions, heat, substance, .. } = material.authored;
+        let Some(substance) = substance else { continue };
+        let stone = |gem: Gem| Some(Gem { inclusions, ..gem });
+        match substance {
+            Substance::Metal => {
+                material.shaped_highlight =
+                    Some(ShapedHighlight { map: highlight_shape, matcap_mix: 0.55, ..ShapedHighlight::default() });
+                material.glow = Some(Glow { emission: 1.0, highlight: 0.5 });
+            }
+            Substance::Amber => material.gem = stone(Gem::amber()),
+            Substance::Ruby => material.gem = stone(Gem::ruby()),
+            Substance::Jade => material.gem = stone(Gem::jade()),
+            Substance::Diamond => {
+                material.diamond = Some(Diamond::default());
+                material.sparkle = Some(Sparkle { color: [3.0; 3], spacing_px: 9.0, ..Sparkle::default() });
+                material.glow = Some(Glow { emission: 1.0, highlight: 1.0 });
+            }
+            Substance::Fire => {
+                material.fire = heat.map(|heat| Fire { heat, ..Fire::default() });
+                material.glow = Some(Glow::default());
+            }
+            Substance::Fluff => material.fluff = Some(Fluff::default()),
+            // The file paints the knit itself; it gets darker where it is seen aslant.
+            Substance::Stocking => {
+                material.stocking = Some(Stocking { color: [0.012, 0.01, 0.022], cover: 0.12 });
+            }
+        }
+        if material.gem.is_some() || material.diamond.is_some() {
+            // What the file paints in their place.
+            material.matcap = None;
+            material.shade_ramp = None;
+        }
+    }
+}
+
+/// Light spreads where something glows.
+fn post(scene: &mut Scene) {
+    if scene.materials.iter().any(|m| m.glow.is_some()) {
+        scene.post = Some(Post { bloom: Some(Bloom::default()), ..Post::default() });
     }
 }
 

@@ -9,6 +9,7 @@ use toml::{Table, Value};
 use super::{
     Look,
     anime::materials_of,
+    presets,
     values::{merge, nearest, no_such, not_finite, units},
 };
 use crate::color::LinearRgb;
@@ -39,6 +40,9 @@ const MAX_BYTES: u64 = 1 << 20;
 /// side = 2048
 /// [eyes_through]
 /// opacity = 0.4
+/// [post]
+/// tone = "filmic"                     # none, filmic or neutral
+/// bloom = { strength = 0.6, radius = 0.04 }
 ///
 /// [role.face.face_shadow]             # sections of every material that has a part of this role
 /// map = "face.png"                    # or: stack = [{ pitch_deg = 0, front = "a.png", back = "b.png" }], masks = "c.png"
@@ -46,12 +50,15 @@ const MAX_BYTES: u64 = 1 << 20;
 /// [role.hair]
 /// highlight = false
 ///
+/// [material.Brooch]
+/// gem = "ruby"                        # a section by the name of a preset, or by numbers over one: { preset = "ruby", depth_mm = 4 }
+///
 /// [material."Face skin".outline]      # sections of one material; these come last
 /// color = "#8c4a44"
 /// ```
 ///
 /// Sections and keys are those of [`Material`](crate::material::Material), [`Bangs`](crate::scene::Bangs),
-/// [`SelfShadow`](crate::scene::SelfShadow) and [`EyesThrough`](crate::scene::EyesThrough). What a file does not name stays
+/// [`SelfShadow`](crate::scene::SelfShadow), [`EyesThrough`](crate::scene::EyesThrough) and [`Post`](crate::scene::Post). What a file does not name stays
 /// as it is. Instead of `_rad` a key may end in `_deg`, instead of `_m` in `_cm` or `_mm`; a colour may be `"#rrggbb"` (sRGB)
 /// or linear numbers; a texture is a file beside the look file. A name or key that does not exist is an error with the
 /// nearest one that does.
@@ -70,6 +77,7 @@ struct Document {
     bangs: Option<Value>,
     self_shadow: Option<Value>,
     eyes_through: Option<Value>,
+    post: Option<Value>,
     role: BTreeMap<Role, Table>,
     material: BTreeMap<String, Table>,
 }
@@ -186,6 +194,7 @@ impl LookFile {
         scene.bangs = self.section("bangs", self.document.bangs.as_ref(), scene.bangs)?;
         scene.self_shadow = self.section("self_shadow", self.document.self_shadow.as_ref(), scene.self_shadow)?;
         scene.eyes_through = self.section("eyes_through", self.document.eyes_through.as_ref(), scene.eyes_through)?;
+        scene.post = self.section("post", self.document.post.as_ref(), scene.post)?;
         for (role, table) in &self.document.role {
             let name = format!("role.{}", role_name(*role));
             for material in materials_of(scene, *role) {
@@ -215,6 +224,7 @@ impl LookFile {
         let section = |value: Option<Table>| value.map(Value::Table);
         let (bangs, through) = (scene.bangs.and_then(table_of), scene.eyes_through.and_then(table_of));
         root.extend(section(scene.self_shadow.and_then(table_of)).map(|t| ("self_shadow".to_owned(), t)));
+        root.extend(section(scene.post.and_then(table_of)).map(|t| ("post".to_owned(), t)));
         root.extend(section(bangs).map(|t| ("bangs".to_owned(), t)));
         root.extend(section(through).map(|t| ("eyes_through".to_owned(), t)));
         let (mut roles, mut materials) = (Table::new(), Table::new());
@@ -283,6 +293,7 @@ impl LookFile {
         if let Some(Value::Table(shadow)) = over.get_mut("face_shadow") {
             self.face_maps(scene, shadow, &format!("{pointer}.face_shadow"))?;
         }
+        presets::expand(&mut over).map_err(|message| self.fault(pointer, message))?;
         self.textures(scene, &mut over, "", pointer)?;
         units(&mut over, false).map_err(|message| self.fault(pointer, message))?;
         scene.materials[material] = self.merged(&scene.materials[material], &over, pointer)?;
@@ -396,7 +407,7 @@ impl LookFile {
 }
 
 /// Keys that hold a texture.
-const TEXTURE_KEYS: [&str; 11] = [
+const TEXTURE_KEYS: [&str; 13] = [
     "texture",
     "shade_texture",
     "shift_texture",
@@ -408,9 +419,11 @@ const TEXTURE_KEYS: [&str; 11] = [
     "part_ids",
     "detail_normal",
     "detail_color",
+    "inclusions",
+    "heat",
 ];
 /// Those of them that repeat.
-const REPEATED_KEYS: [&str; 2] = ["detail_normal", "detail_color"];
+const REPEATED_KEYS: [&str; 3] = ["detail_normal", "detail_color", "inclusions"];
 
 fn add_texture(scene: &mut Scene, image: Image, wrap: Wrap) -> usize {
     scene.images.push(image);
@@ -455,6 +468,17 @@ fn look_sections(material: &crate::material::Material) -> Table {
         "highlight",
         "layer",
         "depth_rim",
+        "shaped_highlight",
+        "sparkle",
+        "gem",
+        "diamond",
+        "fire",
+        "fluff",
+        "glow",
+        "stocking",
+        "dissolve",
+        "dither_fade",
+        "inner_lines",
     ];
     let mut table = table_of(material).unwrap_or_default();
     table.retain(|key, _| kept.contains(&key));

@@ -3,6 +3,7 @@
 mod anime;
 mod hair_band;
 mod look_file;
+mod presets;
 mod values;
 
 pub use look_file::LookFile;

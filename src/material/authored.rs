@@ -20,4 +20,51 @@ pub struct Authored {
     pub ramp_rows: [u32; 2],
     /// Numbers of parts (`partId`). Default: none.
     pub part_ids: Option<TextureRef>,
+    /// Shape of a highlight (`highlightShape`). Default: none.
+    pub highlight_shape: Option<TextureRef>,
+    /// What a stone encloses (`inclusions`). Default: none.
+    pub inclusions: Option<TextureRef>,
+    /// Shape of fire (`heat`). Default: none.
+    pub heat: Option<TextureRef>,
+    /// What the material is (`substance`). Default: none.
+    pub substance: Option<Substance>,
+}
+
+/// What a material is, where a look treats it in its own way.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Substance {
+    /// Polished metal.
+    Metal,
+    /// A stone as [`Gem::amber`](super::Gem::amber).
+    Amber,
+    /// A stone as [`Gem::ruby`](super::Gem::ruby).
+    Ruby,
+    /// A stone as [`Gem::jade`](super::Gem::jade).
+    Jade,
+    /// A cut stone.
+    Diamond,
+    /// Fire.
+    Fire,
+    /// A coat of short hair.
+    Fluff,
+    /// Thin knit.
+    Stocking,
+}
+
+impl Substance {
+    /// The substance of this name: `metal`, `amber` and so on.
+    pub(crate) fn from_name(name: &str) -> Option<Self> {
+        Some(match name {
+            "metal" => Self::Metal,
+            "amber" => Self::Amber,
+            "ruby" => Self::Ruby,
+            "jade" => Self::Jade,
+            "diamond" => Self::Diamond,
+            "fire" => Self::Fire,
+            "fluff" => Self::Fluff,
+            "stocking" => Self::Stocking,
+            _ => return None,
+        })
+    }
 }

@@ -42,6 +42,28 @@ pub struct Emission {
     pub color: [f32; 3],
     /// Texture, sRGB; multiplies the colour. Default: none.
     pub texture: Option<TextureRef>,
+    /// Movement of the texture, UV units a second. Default: (0, 0).
+    pub scroll_per_s: [f32; 2],
+    /// Swells and ebbs. Default: none.
+    pub blink: Option<Blink>,
+}
+
+/// Light that swells and ebbs.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Blink {
+    /// Time from one peak to the next, seconds. Range 0.05..60. Default: 1.5.
+    pub period_s: f32,
+    /// Share of the light that stays between peaks. Range 0..1. Default: 0.2.
+    pub low: f32,
+    /// 0 swells like breath, 1 is switched on and off. Range 0..1. Default: 0.
+    pub sharpness: f32,
+}
+
+impl Default for Blink {
+    fn default() -> Self {
+        Self { period_s: 1.5, low: 0.2, sharpness: 0.0 }
+    }
 }
 
 /// A texture as a material uses it.

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::TextureRef;
+
 /// A rim of constant width, on the side of the directional light.
 ///
 /// A pixel belongs to it where the picture is farther by `threshold_m` at `width_px` along the surface's normal as it is
@@ -22,6 +24,16 @@ pub struct DepthRim {
     /// N·L between which it fades in; where the contour itself looks away from the light there is none either. Range -1..1,
     /// growing; with both below -1 it is all round. Default: (0, 0.3).
     pub light_side: [f32; 2],
+    /// Colour of the rim on the side away from the light, as bounced light has it, linear; black for none. Range 0..1.
+    /// Default: black.
+    pub shade_color: [f32; 3],
+    /// Share in which point and spot lights draw rims on their own sides. Range 0..1. Default: 1.
+    pub punctual: f32,
+    /// Mask of the width: red channel, linear, read with the base texture's sampler. Default: none.
+    pub width_mask: Option<TextureRef>,
+    /// Distances from the camera at which the rim begins to fade and has gone, metres, growing. Range 0...
+    /// Default: (25, 50).
+    pub fade_m: [f32; 2],
 }
 
 impl Default for DepthRim {
@@ -33,6 +45,10 @@ impl Default for DepthRim {
             width_px: 4.0,
             threshold_m: 0.04,
             light_side: [0.0, 0.3],
+            shade_color: [0.0; 3],
+            punctual: 1.0,
+            width_mask: None,
+            fade_m: [25.0, 50.0],
         }
     }
 }

@@ -25,8 +25,12 @@ pub(crate) struct Draw {
     pub queue_offset: i32,
     pub surface: wgpu::RenderPipeline,
     pub outline: Option<wgpu::RenderPipeline>,
-    /// Writes its depth for rims.
-    pub depth: Option<wgpu::RenderPipeline>,
+    /// Draws the shells of its coat.
+    pub fluff: Option<wgpu::RenderPipeline>,
+    /// Draws its light that blooms.
+    pub glow: Option<wgpu::RenderPipeline>,
+    /// Hides light that blooms behind it.
+    pub hides_glow: Option<wgpu::RenderPipeline>,
     pub flags: SurfaceFlags,
     /// Draws it into the map of the bangs: always where it belongs to another character, for its own face if it casts on
     /// that.
@@ -48,7 +52,7 @@ impl Renderer {
         let has_stencil = color_depth_format(&self.gpu).has_stencil_aspect();
         let has_marks = scene.eyes_through.is_some() && has_stencil;
         let has_lids = scene.bangs.is_some() && scene.materials.iter().any(|m| m.bangs_shadow.is_some_and(|b| b.lids));
-        let has_depth_rim = scene.materials.iter().any(|m| m.depth_rim.is_some_and(|r| r.strength > 0.0));
+        let blooms = scene.post.is_some_and(|p| p.bloom.is_some());
         let mut draws: Vec<Draw> = Vec::new();
         for part in parts {
             let Some(material) = scene.materials.get(part.material) else { continue };
@@ -76,6 +80,7 @@ impl Renderer {
             let mut flags =
                 SurfaceFlags::of(material, &driven[part.material], part.has_vertex_colors, &scene.face_maps);
             flags.cast_shadow &= scene.self_shadow.is_some();
+            flags.hdr = scene.post.is_some();
             let casts = scene.self_shadow.is_some() && !blend && material.cast_shadow.is_some_and(|s| s.casts);
             draws.push(Draw {
                 material: part.material,
@@ -90,7 +95,14 @@ impl Renderer {
                     self.opaque.pipeline(&self.gpu, &self.layouts, flags, material, mark)
                 },
                 outline: self.outline.pipeline(&self.gpu, &self.layouts, flags, material, &driven[part.material]),
-                depth: (has_depth_rim && !blend)
+                fluff: (material.fluff.is_some() && !blend && !flags.unlit).then(|| {
+                    // A coat has no contour of its own, and its holes are strands.
+                    let flags = SurfaceFlags { depth_rim: false, alpha_mask: false, ..flags };
+                    self.fluff.pipeline(&self.gpu, &self.layouts, flags)
+                }),
+                glow: (blooms && material.glow.is_some())
+                    .then(|| self.glow.pipeline(&self.gpu, &self.layouts, flags, material)),
+                hides_glow: (blooms && !blend)
                     .then(|| self.prepass.pipeline(&self.gpu, &self.layouts, flags, material, true)),
                 flags,
                 mark,

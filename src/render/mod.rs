@@ -17,14 +17,24 @@ use std::time::Duration;
 pub use upload::{GpuMemory, GpuScene};
 pub use view::{Background, Channel, View};
 
-use crate::{Error, Gpu, Result, color::Srgb, gpu::MAX_TEXTURE_SIDE, scene::Image};
+use crate::{
+    Error, Gpu, Result,
+    color::Srgb,
+    gpu::MAX_TEXTURE_SIDE,
+    scene::{Image, Post},
+};
 use pass::{
+    HDR_FORMAT,
     bangs_near::BangsNearPass,
     bangs_shadow::{BangsShadowInputs, BangsShadowPass},
+    bloom::{BloomChain, BloomInputs, BloomPass},
     deform::{DeformInputs, DeformPass},
     eyes_through::{EyesThroughInputs, EyesThroughPass},
+    fluff::{FluffInputs, FluffPass},
+    glow::{GlowInputs, GlowPass, GlowTargets},
     opaque::{OpaqueInputs, OpaquePass},
     outline::{OutlineInputs, OutlinePass},
+    post::{PostInputs, PostPass},
     prepass::{PrepassInputs, PrepassPass},
     shadow::{ShadowInputs, ShadowPass},
     transparent::{TransparentInputs, TransparentPass},
@@ -76,13 +86,18 @@ pub struct Renderer {
     pub(crate) shadow: ShadowPass,
     pub(crate) opaque: OpaquePass,
     pub(crate) outline: OutlinePass,
+    pub(crate) fluff: FluffPass,
+    pub(crate) glow: GlowPass,
+    bloom: BloomPass,
+    post: PostPass,
     pub(crate) eyes_through: EyesThroughPass,
     pub(crate) transparent: TransparentPass,
     frame_uniform: wgpu::Buffer,
     frame_group: wgpu::BindGroup,
     color_targets: Option<ColorTargets>,
-    prepass_targets: Option<PrepassTargets>,
-    frame_depth: Option<FrameDepth>,
+    post_targets: Option<PostTargets>,
+    /// With the group 0 that reads them.
+    prepass_targets: Option<(PrepassTargets, wgpu::BindGroup)>,
     picture_target: Option<wgpu::Texture>,
 }
 
@@ -115,7 +130,7 @@ impl Renderer {
                 usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
                 mapped_at_creation: false,
             });
-            let frame_group = frame_group(gpu, &layouts, &frame_uniform, &targets::depth_map(gpu, [1, 1]));
+            let frame_group = frame_group(gpu, &layouts, &frame_uniform, &PrepassTargets::new(gpu, [1, 1]));
             Self {
                 gpu: gpu.clone(),
                 output,
@@ -127,13 +142,17 @@ impl Renderer {
                 shadow: ShadowPass::new(gpu),
                 opaque: OpaquePass::new(gpu, output),
                 outline: OutlinePass::new(gpu, output),
+                fluff: FluffPass::new(gpu, output),
+                glow: GlowPass::new(gpu),
+                bloom: BloomPass::new(gpu),
+                post: PostPass::new(gpu, output),
                 eyes_through: EyesThroughPass::new(gpu, output),
                 transparent: TransparentPass::new(gpu, output),
                 frame_uniform,
                 frame_group,
                 color_targets: None,
+                post_targets: None,
                 prepass_targets: None,
-                frame_depth: None,
                 picture_target: None,
             }
         })
@@ -152,10 +171,12 @@ impl Renderer {
             }
             if let Some(code) = view.channel.shader_code() {
                 let shaded = scene.show_channel(self, code);
+                let post = scene.post.take();
                 let view =
                     View { channel: Channel::Final, background: Background::Color(Srgb([0; 3])), ..view.clone() };
                 let picture = self.render(scene, &view);
                 scene.show_again(shaded);
+                scene.post = post;
                 return picture;
             }
             let texture = match self.picture_target.take() {
@@ -197,19 +218,26 @@ impl Renderer {
         self.encode_bangs_shadow(encoder, scene, None);
         // Each character from the key light.
         self.encode_shadow(encoder, scene, None);
-        // Depth of all surfaces, where a rim reads it.
-        self.encode_depth(encoder, scene, None);
+        // Depth of all surfaces, and their normals and parts, where a material reads them.
+        self.encode_prepass(encoder, scene, None);
+        // Light that blooms, and how far it spreads.
+        self.encode_glow(encoder, scene, None);
         // One colour pass: opaque, outlines and transparent share their targets, so samples are resolved once.
-        let mut pass = self.begin_color_pass(encoder, view, target, None);
+        let mut pass = self.begin_color_pass(encoder, view, target, scene.post.is_some(), None);
         draw_list::bind_scene(&mut pass, scene, self.color_frame_group(scene), &scene.character_group);
         // Body, face, hair.
         self.opaque.encode(&mut pass, &OpaqueInputs { scene });
         // Lines around them, hidden where a surface is nearer.
         self.outline.encode(&mut pass, &OutlineInputs { scene });
+        // Coats of short hair over both.
+        self.fluff.encode(&mut pass, &FluffInputs { scene, px_per_m: view.px_per_m() });
         // Eyes and brows through the bangs.
         self.eyes_through.encode(&mut pass, &EyesThroughInputs { scene });
         // What is seen through, far before near.
         self.transparent.encode(&mut pass, &TransparentInputs { scene });
+        drop(pass);
+        // Bloom, tone curve, background, smooth edges.
+        self.encode_post(encoder, scene, view, target, None);
         Ok(())
     }
 
@@ -222,11 +250,13 @@ impl Renderer {
         if changed {
             scene.instance_rows.clear();
             scene.instance_rows.extend(rows);
-            if scene.instance_rows.len() > scene.instance_capacity {
-                scene.instance_capacity = scene.instance_rows.len().next_power_of_two();
+            // A copy for the surfaces, and one for each shell of a coat.
+            let copied = scene.instance_rows.repeat(scene.instance_copies);
+            if copied.len() > scene.instance_capacity {
+                scene.instance_capacity = copied.len().next_power_of_two();
                 scene.instances = upload::instance_buffer(&self.gpu, scene.instance_capacity);
             }
-            self.gpu.queue.write_buffer(&scene.instances, 0, bytemuck::cast_slice(&scene.instance_rows));
+            self.gpu.queue.write_buffer(&scene.instances, 0, bytemuck::cast_slice(&copied));
         }
         scene.fit_shadow(self);
         scene.light(&self.gpu, view);
@@ -236,10 +266,16 @@ impl Renderer {
         if self.color_targets.as_ref().is_none_or(|t| t.size != view.size) && view.channel == Channel::Final {
             self.color_targets = Some(ColorTargets::new(&self.gpu, view.size, self.output));
         }
-        if scene.has_depth_rim && self.frame_depth.as_ref().is_none_or(|d| d.size != view.size) {
-            let depth = targets::depth_map(&self.gpu, view.size);
-            let group = frame_group(&self.gpu, &self.layouts, &self.frame_uniform, &depth);
-            self.frame_depth = Some(FrameDepth { size: view.size, view: depth, group });
+        if let Some(post) = scene.post
+            && view.channel == Channel::Final
+            && self.post_targets.as_ref().is_none_or(|t| t.color.size != view.size || t.post != post)
+        {
+            self.post_targets = Some(PostTargets::new(self, view.size, post));
+        }
+        if !scene.prepass.is_empty() && self.prepass_targets.as_ref().is_none_or(|(t, _)| t.size != view.size) {
+            let targets = PrepassTargets::new(&self.gpu, view.size);
+            let group = frame_group(&self.gpu, &self.layouts, &self.frame_uniform, &targets);
+            self.prepass_targets = Some((targets, group));
         }
     }
 
@@ -277,25 +313,71 @@ impl Renderer {
         }
     }
 
-    pub(crate) fn encode_depth(
+    pub(crate) fn encode_prepass(
         &self,
         encoder: &mut wgpu::CommandEncoder,
         scene: &GpuScene,
         timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
     ) {
-        if let (true, Some(depth)) = (scene.has_depth_rim, &self.frame_depth) {
-            self.prepass.encode_depth(encoder, scene, &self.frame_group, &depth.view, timestamps);
+        if let (false, Some((targets, _))) = (scene.prepass.is_empty(), &self.prepass_targets) {
+            let inputs = PrepassInputs {
+                scene,
+                frame: &self.frame_group,
+                targets,
+                surfaces: scene.has_inner_lines,
+                pipelines: &scene.prepass,
+            };
+            self.prepass.encode(encoder, &inputs, timestamps);
         }
     }
 
+    pub(crate) fn encode_glow(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        scene: &GpuScene,
+        timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
+    ) {
+        let targets = self.post_targets.as_ref().filter(|_| scene.post.is_some());
+        if let Some(PostTargets { light: Some((targets, chain)), .. }) = targets {
+            let inputs = GlowInputs { scene, frame: &self.frame_group, targets };
+            self.glow.encode(encoder, &inputs, timestamps);
+            self.bloom.encode(encoder, &BloomInputs { chain });
+        }
+    }
+
+    pub(crate) fn encode_post(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        scene: &GpuScene,
+        view: &View,
+        target: &wgpu::TextureView,
+        timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
+    ) {
+        if let (Some(post), Some(targets)) = (scene.post, &self.post_targets) {
+            let PostTargets { group, pipeline, .. } = targets;
+            let inputs = PostInputs { post, background: view.background, group, pipeline, target };
+            self.post.encode(&self.gpu, encoder, &inputs, timestamps);
+        }
+    }
+
+    /// `posts`: it is finished by [`Renderer::encode_post`].
     pub(crate) fn begin_color_pass<'a>(
         &self,
         encoder: &'a mut wgpu::CommandEncoder,
         view: &View,
         target: &wgpu::TextureView,
+        posts: bool,
         timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
     ) -> wgpu::RenderPass<'a> {
-        let targets = self.color_targets.as_ref();
+        let post = self.post_targets.as_ref().filter(|_| posts);
+        let targets = post.map_or(self.color_targets.as_ref(), |p| Some(&p.color));
+        let target = post.map_or(target, |p| &p.picture);
+        let clear = if post.is_some() {
+            // The background comes last.
+            wgpu::Color::TRANSPARENT
+        } else {
+            view.background.clear_color(self.output)
+        };
         let multisampled = targets.and_then(|t| t.multisampled.as_ref());
         // Samples that are resolved need not be kept.
         let store = if multisampled.is_some() {
@@ -309,7 +391,7 @@ impl Renderer {
                 view: multisampled.unwrap_or(target),
                 depth_slice: None,
                 resolve_target: multisampled.map(|_| target),
-                ops: wgpu::Operations { load: wgpu::LoadOp::Clear(view.background.clear_color(self.output)), store },
+                ops: wgpu::Operations { load: wgpu::LoadOp::Clear(clear), store },
             })],
             depth_stencil_attachment: targets.map(|t| wgpu::RenderPassDepthStencilAttachment {
                 view: &t.depth,
@@ -323,56 +405,81 @@ impl Renderer {
         })
     }
 
-    /// Group 0 of the colour pass: with the depth of the frame where a rim reads it.
+    /// Group 0 of the colour pass: with what the prepass drew where a material reads it.
     pub(crate) fn color_frame_group(&self, scene: &GpuScene) -> &wgpu::BindGroup {
-        let depth = self.frame_depth.as_ref().filter(|_| scene.has_depth_rim);
-        depth.map_or(&self.frame_group, |d| &d.group)
+        let drawn = self.prepass_targets.as_ref().filter(|_| !scene.prepass.is_empty());
+        drawn.map_or(&self.frame_group, |(_, group)| group)
     }
 
     /// Renders one of the prepass's channels as a picture.
     fn render_channel(&mut self, scene: &mut GpuScene, view: &View) -> Result<Image> {
         self.begin_frame(scene, view);
-        let targets = match self.prepass_targets.take() {
-            Some(t) if t.size == view.size => t,
-            _ => PrepassTargets::new(&self.gpu, view.size),
-        };
+        let targets = PrepassTargets::new(&self.gpu, view.size);
         let mut encoder =
             self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("channel") });
         self.encode_deform(&mut encoder, scene, None);
         // Made here and not at upload: few scenes are ever looked at in these channels.
         let Self { gpu, layouts, prepass, frame_group, .. } = self;
-        let pipelines: Vec<wgpu::RenderPipeline> =
-            scene.draws.iter().map(|d| prepass.pipeline(gpu, layouts, d.flags, scene.material(d), false)).collect();
+        let pipelines: Vec<_> = scene
+            .draws
+            .iter()
+            .map(|d| Some(prepass.pipeline(gpu, layouts, d.flags, scene.material(d), false)))
+            .collect();
         // Depth, normal and part id.
-        let inputs = PrepassInputs { scene, frame: frame_group, targets: &targets, pipelines: &pipelines };
-        prepass.encode(&mut encoder, &inputs);
+        let inputs =
+            PrepassInputs { scene, frame: frame_group, targets: &targets, surfaces: true, pipelines: &pipelines };
+        prepass.encode(&mut encoder, &inputs, None);
         self.gpu.queue.submit([encoder.finish()]);
         let texture = match view.channel {
             Channel::Depth => &targets.depth,
-            Channel::PartId => &targets.part,
-            _ => &targets.normal,
+            _ => &targets.surfaces,
         };
         let texels = readback::read_texels(&self.gpu, texture, FRAME_TIMEOUT)?;
-        self.prepass_targets = Some(targets);
         Ok(view.channel.picture(view, texels))
     }
 }
 
-/// Depth of all surfaces, for rims, and group 0 with it.
+/// What a frame that is finished by [`PostPass`] is drawn into.
 #[derive(Debug)]
-struct FrameDepth {
-    size: [u32; 2],
-    view: wgpu::TextureView,
+struct PostTargets {
+    post: Post,
+    color: ColorTargets,
+    picture: wgpu::TextureView,
+    light: Option<(GlowTargets, BloomChain)>,
     group: wgpu::BindGroup,
+    pipeline: wgpu::RenderPipeline,
 }
 
-fn frame_group(gpu: &Gpu, layouts: &Layouts, uniform: &wgpu::Buffer, depth: &wgpu::TextureView) -> wgpu::BindGroup {
+impl PostTargets {
+    fn new(renderer: &mut Renderer, size: [u32; 2], post: Post) -> Self {
+        let Renderer { gpu, output, bloom, post: pass, .. } = renderer;
+        let picture = targets::sampled(gpu, "picture", size, HDR_FORMAT);
+        let light = post.bloom.map(|settings| {
+            let glow = GlowTargets::new(gpu, size);
+            let chain = bloom.chain(gpu, &glow.light, size[1], settings);
+            (glow, chain)
+        });
+        // Without bloom its strength is 0, and any picture will do.
+        let spread = light.as_ref().map_or(&picture, |(glow, _)| &glow.light);
+        Self {
+            post,
+            color: ColorTargets::new(gpu, size, Output { format: HDR_FORMAT, ..*output }),
+            group: pass.group(gpu, &picture, spread),
+            pipeline: pass.pipeline(gpu, post),
+            picture,
+            light,
+        }
+    }
+}
+
+fn frame_group(gpu: &Gpu, layouts: &Layouts, uniform: &wgpu::Buffer, read: &PrepassTargets) -> wgpu::BindGroup {
     gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
         label: Some("frame"),
         layout: &layouts.frame,
         entries: &[
             wgpu::BindGroupEntry { binding: 0, resource: uniform.as_entire_binding() },
-            wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::TextureView(depth) },
+            wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::TextureView(&read.depth_view) },
+            wgpu::BindGroupEntry { binding: 2, resource: wgpu::BindingResource::TextureView(&read.surfaces_view) },
         ],
     })
 }
@@ -395,6 +502,15 @@ impl Layouts {
                     wgpu::ShaderStages::FRAGMENT,
                     wgpu::BindingType::Texture {
                         sample_type: wgpu::TextureSampleType::Depth,
+                        view_dimension: wgpu::TextureViewDimension::D2,
+                        multisampled: false,
+                    },
+                ),
+                entry(
+                    2,
+                    wgpu::ShaderStages::FRAGMENT,
+                    wgpu::BindingType::Texture {
+                        sample_type: wgpu::TextureSampleType::Uint,
                         view_dimension: wgpu::TextureViewDimension::D2,
                         multisampled: false,
                     },

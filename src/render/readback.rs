@@ -8,10 +8,11 @@ use crate::{
     scene::Image,
 };
 
-/// Copies rows of a texture with four bytes a texel to the CPU, without padding.
+/// Copies rows of a texture to the CPU, without padding.
 pub(crate) fn read_texels(gpu: &Gpu, texture: &wgpu::Texture, timeout: Duration) -> Result<Vec<u8>> {
     let (width, height) = (texture.width(), texture.height());
-    let row = width as usize * 4;
+    let texel = texture.format().block_copy_size(None).unwrap_or(4);
+    let row = width as usize * texel as usize;
     let padded = row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT as usize);
     let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
         label: Some("readback"),

@@ -12,7 +12,10 @@ macro_rules! entries {
     };
 }
 
-entries!(bangs_near, bangs_shadow, deform, eyes_through, floor, opaque, outline, prepass, shadow, transparent);
+entries!(
+    bangs_near, bangs_shadow, bloom, deform, eyes_through, floor, fluff, glow, opaque, outline, post, prepass, shadow,
+    transparent,
+);
 
 /// Shader module of an entry file.
 pub(crate) fn module(device: &wgpu::Device, name: &str) -> wgpu::ShaderModule {

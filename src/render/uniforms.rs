@@ -5,7 +5,10 @@ use glam::{Mat4, Vec3};
 
 use crate::{
     color::hue_saturation,
-    material::{AngleMapping, MAX_PARTS, Material, OutlineWidth, Shading, TextureRef, UvTransform},
+    material::{
+        AngleMapping, Decal, MAX_DECALS, MAX_PARTS, MAX_SHELLS, Material, OutlineWidth, Shading, TextureRef,
+        UvTransform,
+    },
     render::{
         View,
         pass::{bangs_shadow::BangsMap, shadow::ShadowRows},
@@ -45,6 +48,9 @@ pub struct FrameUniform {
     pub near: f32,
     pub ambient_ground: [f32; 3],
     pub coolness: f32,
+    pub instances: u32,
+    pub px_per_m: f32,
+    pub padding_frame: [u32; 2],
     pub punctual: [PunctualLightUniform; MAX_PUNCTUAL_LIGHTS],
 }
 
@@ -54,6 +60,16 @@ pub struct FrameUniform {
 pub struct UvTransformUniform {
     pub row_u: [f32; 4],
     pub row_v: [f32; 4],
+}
+
+/// `DecalPlace` of `wgsl/bind/material.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+pub struct DecalUniform {
+    pub row_u: [f32; 4],
+    pub row_v: [f32; 4],
+    pub sheet: [f32; 4],
+    pub color: [f32; 4],
 }
 
 /// `Material` of `wgsl/bind/material.wgsl`.
@@ -137,6 +153,80 @@ pub struct MaterialUniform {
     pub padding_outline: f32,
     pub outline_shift: [[f32; 4]; 3],
     pub outline_parts: [[f32; 4]; MAX_PARTS],
+    pub shaped_color: [f32; 3],
+    pub shaped_strength: f32,
+    pub shaped_move: [f32; 2],
+    pub shaped_split: [f32; 2],
+    pub shaped_turn: [f32; 2],
+    pub shaped_squash: f32,
+    pub shaped_size: f32,
+    pub shaped_square: f32,
+    pub shaped_in_shade: f32,
+    pub shaped_anisotropy: f32,
+    pub shaped_map_scale: f32,
+    pub matcap_mix: f32,
+    pub sparkle_px: f32,
+    pub sparkle_spread: f32,
+    pub sparkle_cos: f32,
+    pub sparkle_color: [f32; 3],
+    pub gem_ior: f32,
+    pub gem_color: [f32; 3],
+    pub gem_cloudiness: f32,
+    pub gem_depth_uv: f32,
+    pub gem_layers: f32,
+    pub gem_caustic: f32,
+    pub gem_focus: f32,
+    pub gem_polish: f32,
+    pub diamond_bounces: u32,
+    pub diamond_facets: f32,
+    pub diamond_brilliance: f32,
+    pub diamond_color: [f32; 3],
+    pub fire_erosion: f32,
+    pub diamond_ior: [f32; 3],
+    pub fire_softness: f32,
+    pub fire_rim: [f32; 3],
+    pub fire_turbulence: f32,
+    pub fire_body: [f32; 3],
+    pub fire_sway: f32,
+    pub fire_heart: [f32; 3],
+    pub fire_additive: f32,
+    pub fire_edges: [f32; 2],
+    pub fire_period: f32,
+    pub fire_cells: i32,
+    pub emission_scroll: [f32; 2],
+    pub blink_low: f32,
+    pub blink_sharpness: f32,
+    pub blink_period: f32,
+    pub dissolve_amount: f32,
+    pub dissolve_border: f32,
+    pub dissolve_cells: i32,
+    pub dissolve_color: [f32; 3],
+    pub dither_opacity: f32,
+    pub dither_near: [f32; 2],
+    pub stocking_cover: f32,
+    pub decal_set: f32,
+    pub stocking_color: [f32; 3],
+    pub decal_count: u32,
+    pub decals: [DecalUniform; MAX_DECALS],
+    pub depth_rim_shade: [f32; 3],
+    pub depth_rim_punctual: f32,
+    pub depth_rim_fade: [f32; 2],
+    pub fluff_shells: f32,
+    pub fluff_length: f32,
+    pub fluff_density: f32,
+    pub fluff_softness: f32,
+    pub fluff_gravity: f32,
+    pub fluff_wind: f32,
+    pub fluff_period: f32,
+    pub fluff_root: f32,
+    pub glow: f32,
+    pub glow_highlight: f32,
+    pub line_tint: [f32; 3],
+    pub line_width: f32,
+    pub line_steps: [f32; 2],
+    pub line_parts: f32,
+    pub padding_line: f32,
+    pub rim_width_uv: UvTransformUniform,
     pub base_uv: UvTransformUniform,
     pub shade_uv: UvTransformUniform,
     pub shift_uv: UvTransformUniform,
@@ -277,6 +367,9 @@ impl FrameUniform {
             near: camera.near,
             ambient_ground: lights.ambient.ground.0,
             coolness: lights.coolness(),
+            instances: view.instances.len() as u32,
+            px_per_m: view.px_per_m(),
+            padding_frame: [0; 2],
             punctual,
         }
     }
@@ -292,6 +385,22 @@ impl UvTransformUniform {
             row_u: [cos * scale[0], sin * scale[1], offset[0], texture.uv_set as f32],
             row_v: [-sin * scale[0], cos * scale[1], offset[1], 0.0],
         }
+    }
+}
+
+impl DecalUniform {
+    fn new(decal: &Decal) -> Self {
+        let (sin, cos) = decal.rotation_rad.sin_cos();
+        let [w, h] = decal.size.map(|s| s.abs().max(1e-6));
+        let [x, y] = decal.middle;
+        // Turned back, scaled, and moved so that 0..1 spans the decal.
+        let row = |a: f32, b: f32, scale: f32| {
+            let (a, b) = (a / scale, b / scale);
+            [a, b, 0.5 - a * x - b * y, 0.0]
+        };
+        let mut row_v = row(-sin, cos, h);
+        row_v[3] = f32::from(u8::from(decal.multiplies));
+        Self { row_u: row(cos, sin, w), row_v, sheet: decal.sheet, color: decal.color }
     }
 }
 
@@ -323,6 +432,21 @@ impl MaterialUniform {
         let parts = tint.parts.unwrap_or_default();
         let response = material.light_response.unwrap_or_default();
         let fur = material.fur_detail.unwrap_or_default();
+        let shaped = material.shaped_highlight.unwrap_or_default();
+        let sparkle = material.sparkle.unwrap_or_default();
+        let gem = material.gem.unwrap_or_default();
+        let diamond = material.diamond.unwrap_or_default();
+        let fire = material.fire.unwrap_or_default();
+        let blink = material.emission.blink.unwrap_or_default();
+        let dissolve = material.dissolve.unwrap_or_default();
+        let fade = material.dither_fade.unwrap_or_default();
+        let stocking = material.stocking.unwrap_or_default();
+        let placed = material.decals.as_ref().map_or(&[] as &[_], |d| d.placed.as_slice());
+        let fluff = material.fluff.unwrap_or_default();
+        let lines = material.inner_lines.unwrap_or_default();
+        let glow = material.glow.unwrap_or_default();
+        // One painted picture serves whichever of these a material has.
+        let painted = material.painted_highlight();
         let pitches = face_maps.get(face.map).map_or([0.0].as_slice(), |m| m.pitches_rad.as_slice());
         let scaled = |color: [f32; 3], by: f32| color.map(|c| c * by);
         let cutoff = match material.alpha.mode {
@@ -410,6 +534,80 @@ impl MaterialUniform {
             padding_outline: 0.0,
             outline_shift: columns(tint.hue_rad, tint.saturation),
             outline_parts: parts.colors.map(|[r, g, b]| [r, g, b, 1.0]),
+            shaped_color: shaped.color,
+            shaped_strength: shaped.strength,
+            shaped_move: shaped.translate,
+            shaped_split: shaped.split,
+            shaped_turn: [shaped.rotate_rad.cos(), shaped.rotate_rad.sin()],
+            shaped_squash: shaped.squash.clamp(0.0, 0.99),
+            shaped_size: shaped.size_rad.clamp(0.0, 1.57).sin(),
+            shaped_square: shaped.square,
+            shaped_in_shade: shaped.in_shade,
+            shaped_anisotropy: shaped.anisotropy,
+            shaped_map_scale: 1.0 / shaped.map_width.max(0.05),
+            matcap_mix: shaped.matcap_mix,
+            sparkle_px: sparkle.spacing_px.clamp(2.0, 64.0),
+            sparkle_spread: sparkle.spread,
+            sparkle_cos: sparkle.size_rad.clamp(0.02, 0.5).cos(),
+            sparkle_color: sparkle.color,
+            gem_ior: gem.ior.clamp(1.0, 3.0),
+            gem_color: gem.color,
+            gem_cloudiness: gem.cloudiness,
+            gem_depth_uv: gem.depth_m * gem.uv_per_m,
+            gem_layers: gem.layers.clamp(1, 4) as f32,
+            gem_caustic: gem.caustic,
+            gem_focus: gem.caustic_focus.max(1.0),
+            gem_polish: gem.polish,
+            diamond_bounces: diamond.bounces.clamp(1, 6),
+            diamond_facets: diamond.facets.clamp(4, 16) as f32,
+            diamond_brilliance: diamond.brilliance,
+            diamond_color: diamond.color,
+            fire_erosion: fire.erosion,
+            diamond_ior: diamond.ior.map(|n| n.clamp(1.0, 4.0)),
+            fire_softness: fire.softness.max(1e-3),
+            fire_rim: scaled(fire.colors[0], fire.strength),
+            fire_turbulence: fire.turbulence,
+            fire_body: scaled(fire.colors[1], fire.strength),
+            fire_sway: fire.sway,
+            fire_heart: scaled(fire.colors[2], fire.strength),
+            fire_additive: fire.additive,
+            fire_edges: fire.edges,
+            fire_period: fire.period_s.max(0.05),
+            fire_cells: fire.cells.clamp(1, 32) as i32,
+            emission_scroll: material.emission.scroll_per_s,
+            blink_low: blink.low,
+            blink_sharpness: blink.sharpness,
+            blink_period: blink.period_s.max(0.05),
+            dissolve_amount: dissolve.amount,
+            dissolve_border: dissolve.border,
+            dissolve_cells: dissolve.cells.clamp(1, 256) as i32,
+            dissolve_color: dissolve.color,
+            dither_opacity: fade.opacity,
+            dither_near: fade.near_m,
+            stocking_cover: stocking.cover,
+            decal_set: material.decals.as_ref().map_or(0.0, |d| d.map.uv_set as f32),
+            stocking_color: stocking.color,
+            decal_count: placed.len().min(MAX_DECALS) as u32,
+            decals: std::array::from_fn(|i| placed.get(i).map_or_else(DecalUniform::default, DecalUniform::new)),
+            depth_rim_shade: scaled(rim.shade_color, rim.strength),
+            depth_rim_punctual: rim.punctual,
+            depth_rim_fade: rim.fade_m,
+            fluff_shells: fluff.shells.clamp(1, MAX_SHELLS) as f32,
+            fluff_length: fluff.length_m,
+            fluff_density: fluff.density,
+            fluff_softness: fluff.softness,
+            fluff_gravity: fluff.gravity_m,
+            fluff_wind: fluff.wind_m,
+            fluff_period: fluff.wind_period_s.max(0.05),
+            fluff_root: fluff.root_light,
+            glow: glow.emission,
+            glow_highlight: glow.highlight,
+            line_tint: lines.color,
+            line_width: lines.width_px,
+            line_steps: [lines.step_m, lines.fold_rad.cos()],
+            line_parts: f32::from(u8::from(lines.between_parts)),
+            padding_line: 0.0,
+            rim_width_uv: UvTransformUniform::new(rim.width_mask),
             base_uv: UvTransformUniform::new(material.base.texture),
             shade_uv: UvTransformUniform::new(toon.shade_texture),
             shift_uv: UvTransformUniform::new(toon.shift_texture),
@@ -418,7 +616,7 @@ impl MaterialUniform {
             rim_mask_uv: UvTransformUniform::new(material.rim.mask),
             outline_mask_uv: UvTransformUniform::new(outline.width_mask),
             animation_mask_uv: UvTransformUniform::new(material.uv_animation.mask),
-            highlight_uv: UvTransformUniform::new(Some(highlight.map)),
+            highlight_uv: UvTransformUniform::new(painted),
             face_paint_uv: UvTransformUniform::new(Some(paint.map)),
             detail_color_uv: UvTransformUniform::new(fur.detail_color),
             detail_normal_uv: UvTransformUniform::new(Some(fur.detail_normal)),
@@ -489,4 +687,13 @@ pub fn pack_unit(v: [f32; 3]) -> u32 {
     };
     let quantize = |x: f32| u32::from((x.clamp(-1.0, 1.0) * 32767.0).round() as i16 as u16);
     quantize(x) | quantize(y) << 16
+}
+
+/// Inverse of [`pack_unit`].
+pub(crate) fn unpack_unit(packed: u32) -> Vec3 {
+    let [x, y] = [packed as u16, (packed >> 16) as u16].map(|c| f32::from(c as i16) / 32767.0);
+    let z = 1.0 - x.abs() - y.abs();
+    let t = (-z).max(0.0);
+    let towards = |c: f32| if c >= 0.0 { c - t } else { c + t };
+    Vec3::new(towards(x), towards(y), z).normalize_or(Vec3::Z)
 }

@@ -20,9 +20,9 @@ use super::{
 };
 use crate::{
     Error, Gpu, Result,
-    material::{Material, Shading, TextureRef},
+    material::{MAX_SHELLS, Material, Shading, TextureRef},
     motion::Pose,
-    scene::{EyesThrough, Image, Scene},
+    scene::{EyesThrough, Image, Post, Scene},
     sdf::FaceMap,
 };
 
@@ -37,6 +37,8 @@ pub struct GpuScene {
     pub(crate) instances: wgpu::Buffer,
     pub(crate) instance_capacity: usize,
     pub(crate) instance_rows: Vec<AffineRows>,
+    /// How often the instances stand in their buffer.
+    pub(crate) instance_copies: usize,
     pub(crate) character_group: wgpu::BindGroup,
     /// The same while the map of the bangs is drawn.
     pub(crate) character_group_without_map: wgpu::BindGroup,
@@ -51,14 +53,17 @@ pub struct GpuScene {
     pub(crate) material_groups: Vec<wgpu::BindGroup>,
     /// Textures of each material, in the order of their slots.
     material_textures: Vec<Vec<(wgpu::TextureView, wgpu::Sampler)>>,
-    /// Whether a material has a rim by depth.
-    pub(crate) has_depth_rim: bool,
+    /// Pipelines of the prepass, one for each draw; empty where no material reads it.
+    pub(crate) prepass: Vec<Option<wgpu::RenderPipeline>>,
+    /// Whether a material has inner lines, which read normals and parts.
+    pub(crate) has_inner_lines: bool,
     face_maps: Vec<FaceMap>,
     pub(crate) draws: Vec<Draw>,
     pub(crate) transparent_order: Vec<usize>,
     /// Eyes and brows that are seen through hair, the foremost first.
     pub(crate) through_order: Vec<usize>,
     eyes_through: Option<EyesThrough>,
+    pub(crate) post: Option<Post>,
     /// Whether the deformed vertices lag behind the pose.
     pub(crate) deform_pending: bool,
     source_materials: Vec<Material>,
@@ -81,6 +86,7 @@ struct MapSamplers {
 pub(crate) struct Shaded {
     surface: wgpu::RenderPipeline,
     through: Option<wgpu::RenderPipeline>,
+    fluff: Option<wgpu::RenderPipeline>,
     outline: Option<wgpu::RenderPipeline>,
 }
 
@@ -172,6 +178,15 @@ impl Renderer {
         let character_group = self.character_group(&character, &map_samplers, bangs.as_ref(), shadow.as_ref());
         let deform = self.deform.buffers(&self.gpu, &geometry.deform_input());
         let draws = self.make_draws(scene, &geometry.parts);
+        let has_inner_lines = draws.iter().any(|d| d.flags.inner_lines);
+        let prepass = if has_inner_lines || draws.iter().any(|d| d.flags.depth_rim) {
+            let Self { prepass, gpu, layouts, .. } = self;
+            let mut make =
+                |d: &Draw| prepass.pipeline(gpu, layouts, d.flags, &scene.materials[d.material], !has_inner_lines);
+            draws.iter().map(|d| (!d.blend).then(|| make(d))).collect()
+        } else {
+            Vec::new()
+        };
         let mut uploaded = GpuScene {
             deform,
             static_vertices,
@@ -179,6 +194,13 @@ impl Renderer {
             instances: instance_buffer(&self.gpu, 1),
             instance_capacity: 1,
             instance_rows: Vec::new(),
+            instance_copies: 1 + scene
+                .materials
+                .iter()
+                .filter_map(|m| m.fluff)
+                .map(|f| f.shells.clamp(1, MAX_SHELLS) as usize)
+                .max()
+                .unwrap_or(0),
             character_group,
             character_group_without_map,
             bangs,
@@ -190,12 +212,14 @@ impl Renderer {
             materials,
             material_groups,
             material_textures,
-            has_depth_rim: draws.iter().any(|d| d.flags.depth_rim),
+            prepass,
+            has_inner_lines,
             // The numbers alone: what they point to is on the GPU.
             face_maps: scene.face_maps.iter().map(FaceMap::without_texels).collect(),
             transparent_order: Vec::with_capacity(draws.len()),
             through_order: through_order(&draws),
             eyes_through: scene.eyes_through,
+            post: scene.post,
             draws,
             deform_pending: true,
             source_materials: scene.materials.clone(),
@@ -391,18 +415,20 @@ impl GpuScene {
 
     /// Puts the pipelines of a debug channel in place of those of the picture, and gives these.
     pub(crate) fn show_channel(&mut self, renderer: &mut Renderer, channel: u32) -> Vec<Shaded> {
-        let Renderer { gpu, layouts, opaque, transparent, eyes_through, .. } = renderer;
+        let Renderer { gpu, layouts, opaque, transparent, eyes_through, fluff, .. } = renderer;
         let Self { draws, source_materials, .. } = self;
         let swap = |draw: &mut Draw| {
             let material = &source_materials[draw.material];
-            let flags = SurfaceFlags { channel, ..draw.flags };
+            let flags = SurfaceFlags { channel, hdr: false, ..draw.flags };
             let surface = if draw.blend {
                 transparent.pipeline(gpu, layouts, flags, material)
             } else {
                 opaque.pipeline(gpu, layouts, flags, material, draw.mark)
             };
             let through = draw.through.as_ref().map(|_| eyes_through.pipeline(gpu, layouts, flags, material));
+            let coat = draw.fluff.as_ref().map(|_| fluff.pipeline(gpu, layouts, flags));
             Shaded {
+                fluff: std::mem::replace(&mut draw.fluff, coat),
                 surface: std::mem::replace(&mut draw.surface, surface),
                 through: std::mem::replace(&mut draw.through, through),
                 outline: draw.outline.take(),
@@ -413,8 +439,8 @@ impl GpuScene {
 
     /// Puts the pipelines of the picture back.
     pub(crate) fn show_again(&mut self, shaded: Vec<Shaded>) {
-        for (draw, Shaded { surface, through, outline }) in self.draws.iter_mut().zip(shaded) {
-            (draw.surface, draw.through, draw.outline) = (surface, through, outline);
+        for (draw, Shaded { surface, through, fluff, outline }) in self.draws.iter_mut().zip(shaded) {
+            (draw.surface, draw.through, draw.fluff, draw.outline) = (surface, through, fluff, outline);
         }
     }
 
@@ -462,7 +488,7 @@ pub(crate) fn instance_buffer(gpu: &Gpu, count: usize) -> wgpu::Buffer {
 
 /// Textures of a material, the one of them that is an array, and the one from which on they have no samplers of their own:
 /// some devices have no more than 16.
-pub(crate) const TEXTURE_SLOTS: usize = 17;
+pub(crate) const TEXTURE_SLOTS: usize = 19;
 pub(crate) const FACE_SLOT: usize = 9;
 pub(crate) const SAMPLER_SLOTS: usize = 13;
 const DETAIL_SLOT: usize = 12;
@@ -507,13 +533,18 @@ fn texture_slots(material: &Material) -> [(Option<usize>, Encoding); TEXTURE_SLO
         (material.outline.and_then(|o| of(o.width_mask)), Encoding::Linear),
         (of(material.uv_animation.mask), Encoding::Linear),
         (None, Encoding::Linear),
-        (material.highlight.map(|h| h.map.texture), Encoding::Linear),
+        (of(material.painted_highlight()), Encoding::Linear),
         (material.face_paint.map(|p| p.map.texture), Encoding::Linear),
-        (material.fur_detail.and_then(|f| of(f.detail_color)), Encoding::Srgb),
+        (
+            material.fur_detail.map_or_else(|| material.gem.and_then(|g| of(g.inclusions)), |f| of(f.detail_color)),
+            Encoding::Srgb,
+        ),
         (material.fur_detail.map(|f| f.detail_normal.texture), Encoding::Linear),
         (ramps.map(|r| r.warm.texture), Encoding::Srgb),
         (ramps.map(|r| r.cool.texture), Encoding::Srgb),
         (of(material.part_ids()), Encoding::Linear),
+        (material.decals.as_ref().map(|d| d.map.texture), Encoding::Srgb),
+        (material.depth_rim.and_then(|r| of(r.width_mask)), Encoding::Linear),
     ]
 }
 

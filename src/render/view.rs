@@ -2,7 +2,7 @@
 
 use glam::{Mat4, Quat, Vec3};
 
-use super::{MAX_TEXTURE_SIDE, Output};
+use super::{MAX_TEXTURE_SIDE, Output, uniforms::unpack_unit};
 use crate::{
     Error, Result,
     color::Srgb,
@@ -102,6 +102,22 @@ pub enum Channel {
     Fur,
     /// Share of the key light that a character lets through to itself; black where nothing receives its shadow.
     SelfShadow,
+    /// Stones: light that is gathered or thrown back in red, depth of what is enclosed in green, what is mirrored in blue.
+    Stone,
+    /// Light of sparks.
+    Sparkle,
+    /// Heat of fire.
+    Fire,
+    /// Height of a coat of short hair, root to tip.
+    Fluff,
+    /// Surfaces that burn away: the border dark green, what is whole yellow.
+    Dissolve,
+    /// Light of a surface of its own.
+    Emission,
+    /// Share that decals and stockings cover.
+    Overlay,
+    /// Lines inside of the shape.
+    InnerLines,
 }
 
 impl Channel {
@@ -122,6 +138,14 @@ impl Channel {
         Self::ShadeRamp,
         Self::Fur,
         Self::SelfShadow,
+        Self::Stone,
+        Self::Sparkle,
+        Self::Fire,
+        Self::Fluff,
+        Self::Dissolve,
+        Self::Emission,
+        Self::Overlay,
+        Self::InnerLines,
     ];
 
     /// Its name: `final`, `normal`, `depth`, `part-id`, `face-shadow` and so on.
@@ -143,6 +167,14 @@ impl Channel {
             Self::ShadeRamp => "shade-ramp",
             Self::Fur => "fur",
             Self::SelfShadow => "self-shadow",
+            Self::Stone => "stone",
+            Self::Sparkle => "sparkle",
+            Self::Fire => "fire",
+            Self::Fluff => "fluff",
+            Self::Dissolve => "dissolve",
+            Self::Emission => "emission",
+            Self::Overlay => "overlay",
+            Self::InnerLines => "inner-lines",
         }
     }
 
@@ -172,6 +204,14 @@ impl Channel {
             Self::ShadeRamp => 9,
             Self::Fur => 10,
             Self::SelfShadow => 11,
+            Self::Stone => 12,
+            Self::Sparkle => 13,
+            Self::Fire => 14,
+            Self::Fluff => 15,
+            Self::Dissolve => 16,
+            Self::Emission => 17,
+            Self::Overlay => 18,
+            Self::InnerLines => 19,
         })
     }
 
@@ -180,12 +220,26 @@ impl Channel {
         let word = |t: &[u8]| u32::from_le_bytes([t[0], t[1], t[2], t[3]]);
         let pixels = match self {
             Self::PartId => texels
-                .chunks_exact(4)
+                .chunks_exact(8)
                 .flat_map(|t| {
-                    let [low, high, ..] = word(t).to_le_bytes();
+                    let [low, high, ..] = word(&t[4..]).to_le_bytes();
                     [low, high, 0, 255]
                 })
                 .collect(),
+            Self::Normal => {
+                let view_from_world = view.camera.view_from_world();
+                texels
+                    .chunks_exact(8)
+                    .flat_map(|t| {
+                        if word(&t[4..]) == 0 {
+                            return [0; 4];
+                        }
+                        let seen = view_from_world.transform_vector3(unpack_unit(word(t)));
+                        let [r, g, b] = seen.to_array().map(|c| ((c * 0.5 + 0.5) * 255.0).round() as u8);
+                        [r, g, b, 255]
+                    })
+                    .collect()
+            }
             Self::Depth => {
                 // Depth is near / distance.
                 let distance = |t: &[u8]| view.camera.near / f32::from_bits(word(t));
@@ -208,6 +262,18 @@ impl Channel {
 }
 
 impl View {
+    /// Size of a metre at the nearest character, pixels. Characters are taken as columns two metres high.
+    pub(crate) fn px_per_m(&self) -> f32 {
+        let away = |m: &Mat4| {
+            let (foot, top) = (m.transform_point3(Vec3::ZERO), m.transform_point3(Vec3::Y * 2.0));
+            let along = top - foot;
+            let t = ((self.camera.eye - foot).dot(along) / along.length_squared().max(1e-9)).clamp(0.0, 1.0);
+            self.camera.eye.distance(foot + along * t)
+        };
+        let nearest = self.instances.iter().map(away).fold(f32::MAX, f32::min).max(self.camera.near);
+        self.size[1] as f32 / (2.0 * nearest * (self.camera.fov_y_rad * 0.5).tan())
+    }
+
     /// A view of a character at rest: `yaw_rad` moves the camera around it, positive towards the character's left (+X).
     ///
     /// Head and hips come from the humanoid bones, else from nodes of that name, else from the bounding box.

@@ -10,6 +10,7 @@ mod eyes_through;
 mod head;
 mod light;
 mod mesh;
+mod post;
 mod role;
 mod self_shadow;
 mod texture;
@@ -21,6 +22,7 @@ pub use character::*;
 pub use eyes_through::EyesThrough;
 pub use light::{Ambient, DirectionalLight, Lights, MAX_PUNCTUAL_LIGHTS, PunctualLight, SpotCone};
 pub use mesh::{Influences, Mesh, MorphTarget, Primitive, Skin};
+pub use post::{Bloom, Post, ToneCurve};
 pub use role::Role;
 pub use self_shadow::{MOST_SHADOWED, SelfShadow};
 pub use texture::{Filter, Image, Sampler, Texture, Wrap};
@@ -61,6 +63,8 @@ pub struct Scene {
     pub self_shadow: Option<SelfShadow>,
     /// Eyes and brows through hair. `None`: hair hides them.
     pub eyes_through: Option<EyesThrough>,
+    /// What is done to the whole picture. `None`: nothing is.
+    pub post: Option<Post>,
     /// What will look or work other than the author meant.
     pub warnings: Vec<Warning>,
 }

@@ -1,4 +1,5 @@
 // Group 0: what changes once a frame.
+import package::lib::normal::unit_from_octahedral;
 
 struct PunctualLight {
     position: vec3f,
@@ -30,15 +31,34 @@ struct Frame {
     ambient_ground: vec3f,
     // 0 warm, 1 cool.
     coolness: f32,
+    instances: u32,
+    // Size of a metre at the nearest character.
+    px_per_m: f32,
     punctual: array<PunctualLight, 4>,
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;
-// Depth of all surfaces, one sample a pixel; only where a material has a rim by depth.
+// Depth of all surfaces, one sample a pixel; only where a material reads it.
 @group(0) @binding(1) var frame_depth: texture_depth_2d;
 
 // Distance along the view of what stands at a pixel, metres; very far where nothing does.
 fn distance_at(pixel: vec2i) -> f32 {
     let last = vec2i(textureDimensions(frame_depth)) - 1;
     return frame.near / max(textureLoad(frame_depth, clamp(pixel, vec2i(0), last), 0), 1e-12);
+}
+
+// Normal and part of the nearest surface of each pixel, one sample a pixel; only where a material has inner lines.
+@group(0) @binding(2) var frame_surfaces: texture_2d<u32>;
+
+struct SurfaceAt {
+    // World, unit.
+    normal: vec3f,
+    // 0 for none.
+    part: u32,
+}
+
+fn surface_at(pixel: vec2i) -> SurfaceAt {
+    let last = vec2i(textureDimensions(frame_surfaces)) - 1;
+    let found = textureLoad(frame_surfaces, clamp(pixel, vec2i(0), last), 0).xy;
+    return SurfaceAt(unit_from_octahedral(unpack2x16snorm(found.x)), found.y);
 }

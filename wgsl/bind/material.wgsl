@@ -6,6 +6,15 @@ struct UvTransform {
     row_v: vec4f,
 }
 
+struct DecalPlace {
+    // Rows from texture coordinates to 0..1 over the decal; w of row_v: 1 multiplies.
+    row_u: vec4f,
+    row_v: vec4f,
+    // Left, top, width, height.
+    sheet: vec4f,
+    color: vec4f,
+}
+
 struct Material {
     base_color: vec4f,
     shade_color: vec3f,
@@ -94,6 +103,88 @@ struct Material {
     outline_push: f32,
     outline_shift: mat3x3f,
     outline_parts: array<vec4f, 8>,
+    shaped_color: vec3f,
+    shaped_strength: f32,
+    shaped_move: vec2f,
+    shaped_split: vec2f,
+    // Cosine and sine.
+    shaped_turn: vec2f,
+    shaped_squash: f32,
+    // Sine of the half angle.
+    shaped_size: f32,
+    shaped_square: f32,
+    shaped_in_shade: f32,
+    shaped_anisotropy: f32,
+    // One over the width of the map.
+    shaped_map_scale: f32,
+    matcap_mix: f32,
+    sparkle_px: f32,
+    sparkle_spread: f32,
+    sparkle_cos: f32,
+    sparkle_color: vec3f,
+    gem_ior: f32,
+    gem_color: vec3f,
+    gem_cloudiness: f32,
+    // Depth of the body in texture coordinates.
+    gem_depth_uv: f32,
+    gem_layers: f32,
+    gem_caustic: f32,
+    gem_focus: f32,
+    gem_polish: f32,
+    diamond_bounces: u32,
+    diamond_facets: f32,
+    diamond_brilliance: f32,
+    diamond_color: vec3f,
+    fire_erosion: f32,
+    diamond_ior: vec3f,
+    fire_softness: f32,
+    fire_rim: vec3f,
+    fire_turbulence: f32,
+    fire_body: vec3f,
+    fire_sway: f32,
+    fire_heart: vec3f,
+    fire_additive: f32,
+    fire_edges: vec2f,
+    fire_period: f32,
+    fire_cells: i32,
+    emission_scroll: vec2f,
+    blink_low: f32,
+    blink_sharpness: f32,
+    blink_period: f32,
+    dissolve_amount: f32,
+    dissolve_border: f32,
+    dissolve_cells: i32,
+    dissolve_color: vec3f,
+    dither_opacity: f32,
+    dither_near: vec2f,
+    stocking_cover: f32,
+    // UV set, 0 or 1.
+    decal_set: f32,
+    stocking_color: vec3f,
+    decal_count: u32,
+    decals: array<DecalPlace, 4>,
+    depth_rim_shade: vec3f,
+    depth_rim_punctual: f32,
+    // Metres.
+    depth_rim_fade: vec2f,
+    fluff_shells: f32,
+    fluff_length: f32,
+    fluff_density: f32,
+    fluff_softness: f32,
+    fluff_gravity: f32,
+    fluff_wind: f32,
+    fluff_period: f32,
+    fluff_root: f32,
+    // Share of the colour that glows.
+    glow: f32,
+    glow_highlight: f32,
+    line_tint: vec3f,
+    // Pixels of a picture 1024 high.
+    line_width: f32,
+    // Metres, and cosine.
+    line_steps: vec2f,
+    line_parts: f32,
+    rim_width_uv: UvTransform,
     base_uv: UvTransform,
     shade_uv: UvTransform,
     shift_uv: UvTransform,
@@ -141,3 +232,6 @@ struct Material {
 @group(2) @binding(29) var ramp_warm_texture: texture_2d<f32>;
 @group(2) @binding(31) var ramp_cool_texture: texture_2d<f32>;
 @group(2) @binding(33) var part_ids_texture: texture_2d<f32>;
+// Read by the sampler of the base texture.
+@group(2) @binding(35) var decal_texture: texture_2d<f32>;
+@group(2) @binding(37) var rim_width_texture: texture_2d<f32>;

@@ -54,6 +54,32 @@ override FUR_DETAIL: bool = false;
 override FUR_COLOR: bool = false;
 // Light along the contour, by depth.
 override DEPTH_RIM: bool = false;
+// A highlight with a drawn shape; painted; brushed.
+override SHAPED_HIGHLIGHT: bool = false;
+override SHAPED_MAP: bool = false;
+override SHAPED_BRUSHED: bool = false;
+// Sparks.
+override SPARKLE: bool = false;
+// A stone that is seen into; with inclusions; one that throws light back.
+override GEM: bool = false;
+override GEM_INCLUSIONS: bool = false;
+override DIAMOND: bool = false;
+// Fire.
+override FIRE: bool = false;
+// Light of its own that moves; that swells and ebbs.
+override EMISSION_SCROLL: bool = false;
+override EMISSION_BLINK: bool = false;
+// Thin knit; decals.
+override STOCKING: bool = false;
+override DECALS: bool = false;
+// Burns away; fades pixel by pixel.
+override DISSOLVE: bool = false;
+override DITHER_FADE: bool = false;
+// A mask of the width of the rim by depth; its colour on the shaded side.
+override RIM_WIDTH: bool = false;
+override RIM_SHADE: bool = false;
+// Lines where depth, normal or part change.
+override INNER_LINES: bool = false;
 // What is drawn in place of the shaded colour; 0: nothing.
 override CHANNEL: u32 = 0u;
 
@@ -62,7 +88,10 @@ fn surface_options() -> SurfaceOptions {
         UNLIT, BASE_TEXTURE, SHADE_TEXTURE, SHADE_IS_BASE, SHIFT_TEXTURE, NORMAL_MAP, EMISSION_TEXTURE, MATCAP, RIM,
         RIM_MASK, UV_TRANSFORMS, UV_ANIMATION, UV_ANIMATION_MASK, VERTEX_COLOR, ALPHA_MASK, ALPHA_COVERAGE,
         FACE_SHADOW, FACE_STACK, FACE_BACK, FACE_MASKS, TRANSITION, FACE_PAINT, BANGS_SHADOW, LID_SHADOW, HIGHLIGHT,
-        HIGHLIGHT_SECOND, HIGHLIGHT_APART, HIGHLIGHT_BREAKUP, LAYERED, CAST_SHADOW, SHADE_RAMP, RAMP_MAPS, RAMP_PARTS, SHADE_SHIFT,
-        LIGHT_RESPONSE, FUR_DETAIL, FUR_COLOR, DEPTH_RIM, CHANNEL
+        HIGHLIGHT_SECOND, HIGHLIGHT_APART, HIGHLIGHT_BREAKUP, LAYERED, CAST_SHADOW, SHADE_RAMP, RAMP_MAPS, RAMP_PARTS,
+        SHADE_SHIFT,
+        LIGHT_RESPONSE, FUR_DETAIL, FUR_COLOR, DEPTH_RIM, SHAPED_HIGHLIGHT, SHAPED_MAP, SHAPED_BRUSHED, SPARKLE, GEM,
+        GEM_INCLUSIONS, DIAMOND, FIRE, EMISSION_SCROLL, EMISSION_BLINK, STOCKING, DECALS, DISSOLVE, DITHER_FADE, RIM_WIDTH,
+        RIM_SHADE, INNER_LINES, CHANNEL
     );
 }

@@ -2,20 +2,27 @@
 // Which parts exist is fixed at pipeline creation, so that what a material does not use costs nothing.
 import package::bind::character::{BANGS_LAYER, LIDS_LAYER, bangs_lit, shadow_lit};
 import package::bind::face::{FaceOptions, face_shading_at};
-import package::bind::frame::{distance_at, frame, frame_depth};
+import package::bind::frame::{distance_at, frame, frame_depth, surface_at};
 import package::bind::material::{
     UvTransform, material, base_texture, base_sampler, shade_texture, shade_sampler, shift_texture, shift_sampler,
     normal_texture, normal_sampler, emission_texture, emission_sampler, matcap_texture, matcap_sampler,
     rim_mask_texture, rim_mask_sampler, animation_mask_texture, animation_mask_sampler, highlight_texture, highlight_sampler, face_paint_texture, face_paint_sampler,
     face_sampler, detail_color_texture, detail_sampler, detail_normal_texture, ramp_warm_texture, ramp_cool_texture,
-    part_ids_texture,
+    part_ids_texture, rim_width_texture,
 };
+import package::bind::overlay::{Painted, with_decals, with_stocking};
+import package::bind::shine::{shaped_highlight, sparks};
+import package::bind::stone::{Stone, StonePoint, diamond_surface, gem_surface};
+import package::bind::vanish::{burning, is_dithered_away};
 import package::lib::bangs::bangs_share;
-import package::lib::depth_rim::{depth_rim_offset, depth_rim_resolved, depth_rim_side, depth_rim_step};
+import package::lib::depth_rim::{depth_rim_near, depth_rim_offset, depth_rim_resolved, depth_rim_side, depth_rim_step};
+import package::lib::emission::blink;
 import package::lib::face_paint::face_paint_factor;
 import package::lib::face_shadow::face_shading;
+import package::lib::fire::{fire_color, fire_cover, fire_heat, fire_noise, fire_sway};
 import package::lib::fur::{fur_color, fur_masks};
 import package::lib::highlight::highlight_broken;
+import package::lib::inner_lines::line_between;
 import package::lib::light::{accumulated_n_dot_l, distance_attenuation, light_response, luminance, spot_attenuation};
 import package::lib::mtoon::{
     mtoon_animate_uv, mtoon_direct, mtoon_gi, mtoon_matcap_uv, mtoon_parametric_rim, mtoon_rim, mtoon_shading,
@@ -64,6 +71,23 @@ struct SurfaceOptions {
     fur_detail: bool,
     fur_color: bool,
     depth_rim: bool,
+    shaped_highlight: bool,
+    shaped_map: bool,
+    shaped_brushed: bool,
+    sparkle: bool,
+    gem: bool,
+    gem_inclusions: bool,
+    diamond: bool,
+    fire: bool,
+    emission_scroll: bool,
+    emission_blink: bool,
+    stocking: bool,
+    decals: bool,
+    dissolve: bool,
+    dither_fade: bool,
+    rim_width: bool,
+    rim_shade: bool,
+    inner_lines: bool,
     channel: u32,
 }
 
@@ -79,6 +103,20 @@ const CHANNEL_EYES_THROUGH: u32 = 8u;
 const CHANNEL_SHADE_RAMP: u32 = 9u;
 const CHANNEL_FUR: u32 = 10u;
 const CHANNEL_SELF_SHADOW: u32 = 11u;
+const CHANNEL_STONE: u32 = 12u;
+const CHANNEL_SPARKLE: u32 = 13u;
+const CHANNEL_FIRE: u32 = 14u;
+const CHANNEL_FLUFF: u32 = 15u;
+const CHANNEL_DISSOLVE: u32 = 16u;
+const CHANNEL_EMISSION: u32 = 17u;
+const CHANNEL_OVERLAY: u32 = 18u;
+const CHANNEL_INNER_LINES: u32 = 19u;
+
+// Whether shading needs the tangent frame.
+fn has_tangents(options: SurfaceOptions) -> bool {
+    return options.normal_map || options.fur_detail || options.gem || options.diamond || options.sparkle
+        || options.shaped_brushed;
+}
 
 struct SurfaceInput {
     // Pixels from the top left, and depth.
@@ -149,6 +187,15 @@ fn surface_texel(options: SurfaceOptions, in: SurfaceInput, uv: vec4f) -> vec4f 
     return texel;
 }
 
+// Whether nothing of the surface is there: cut out, or burnt.
+fn surface_cut(options: SurfaceOptions, in_uv: vec4f, color: vec4f) -> bool {
+    if options.dissolve && burning(in_uv.xy) < 0.0 {
+        return true;
+    }
+    let texel = surface_texel(options, texel_input(in_uv, color), animated_uv(options, in_uv));
+    return material.base_color.a * texel.a < material.alpha_cutoff;
+}
+
 // Ambient radiance on a surface that faces n.
 fn ambient(n_y: f32) -> vec3f {
     return mix(frame.ambient_ground, frame.ambient_sky, n_y * 0.5 + 0.5);
@@ -177,6 +224,24 @@ fn punctual_light(i: u32, position: vec3f) -> Arriving {
 // the viewer.
 fn shade_surface(options: SurfaceOptions, in: SurfaceInput) -> vec4f {
     let uv = animated_uv(options, in.uv);
+    // What a debug channel shows of the looks below.
+    var extra = vec3f(0.0);
+    if options.dither_fade && is_dithered_away(in.pixel.xy, in.world_position) {
+        discard;
+    }
+    var burn = 1.0;
+    if options.dissolve {
+        burn = burning(in.uv.xy);
+        if burn < 0.0 {
+            discard;
+        }
+        if options.channel == CHANNEL_DISSOLVE {
+            extra = vec3f(saturate(burn), 1.0, 0.0);
+        }
+    }
+    if options.fire {
+        return burning_shape(options, uv);
+    }
     var texel = surface_texel(options, in, uv);
     var base = material.base_color * texel;
     if options.alpha_coverage {
@@ -187,17 +252,19 @@ fn shade_surface(options: SurfaceOptions, in: SurfaceInput) -> vec4f {
     } else if options.alpha_mask && base.a < material.alpha_cutoff {
         discard;
     }
-    var emission = material.emission;
-    if options.emission_texture {
-        emission *= textureSample(
-            emission_texture, emission_sampler, texture_uv(options, uv, material.emission_uv)
-        ).rgb;
+    let emission = emitted(options, uv, burn);
+    if options.channel == CHANNEL_EMISSION {
+        extra = emission;
     }
     if options.unlit {
         return vec4f(base.rgb + emission, base.a);
     }
 
     var normal = normalize(in.normal);
+    var tangent = vec3f(0.0);
+    if has_tangents(options) {
+        tangent = normalize_or(in.tangent.xyz - normal * dot(normal, in.tangent.xyz), vec3f(0.0));
+    }
     if options.normal_map || options.fur_detail {
         var bent: vec3f;
         var scale = material.normal_scale;
@@ -208,7 +275,6 @@ fn shade_surface(options: SurfaceOptions, in: SurfaceInput) -> vec4f {
         } else {
             bent = textureSample(normal_texture, normal_sampler, texture_uv(options, uv, material.normal_uv)).xyz;
         }
-        let tangent = normalize_or(in.tangent.xyz - normal * dot(normal, in.tangent.xyz), vec3f(0.0));
         normal = normal_from_map(bent, scale, normal, tangent, in.tangent.w);
     }
 
@@ -260,6 +326,21 @@ fn shade_surface(options: SurfaceOptions, in: SurfaceInput) -> vec4f {
         base = vec4f(material.base_color.rgb * texel.rgb, base.a);
     }
     var shade = surface_shade(options, texel, uv, in.color);
+    let view = normalize(frame.eye - in.world_position);
+    if options.decals || options.stocking {
+        var surface = Painted(base.rgb, shade, 0.0);
+        if options.stocking {
+            surface = with_stocking(surface, abs(dot(normal, view)));
+        }
+        if options.decals {
+            surface = with_decals(surface, select(in.uv.xy, in.uv.zw, material.decal_set > 0.5));
+        }
+        base = vec4f(surface.lit, base.a);
+        shade = surface.shade;
+        if options.channel == CHANNEL_OVERLAY {
+            extra = vec3f(surface.cover);
+        }
+    }
     var shading = mtoon_shading(n_dot_l, shift, material.toony);
     // The same with the border of the transition, or of the ramp.
     let is_soft = options.transition || options.shade_ramp;
@@ -355,20 +436,57 @@ fn shade_surface(options: SurfaceOptions, in: SurfaceInput) -> vec4f {
         direct = mix(direct, material.highlight_color * light, first);
         shine = max(shine, first);
     }
-    var color = direct + gi * base.rgb + emission;
+    var ambient_part = gi * base.rgb;
+    if options.gem || options.diamond {
+        let bitangent = cross(normal, tangent) * in.tangent.w;
+        // A shadow takes the key light; scattered light stays.
+        let arriving = light * mix(0.3, 1.0, own_lit);
+        let place = StonePoint(view, normal, tangent, bitangent, in.uv.xy, arriving, gi);
+        var stone: Stone;
+        if options.gem {
+            stone = gem_surface(place, options.gem_inclusions);
+        } else {
+            stone = diamond_surface(place);
+        }
+        direct = stone.color;
+        ambient_part = vec3f(0.0);
+        if options.channel == CHANNEL_STONE {
+            extra = stone.parts;
+        }
+    }
+    var matcap = vec3f(0.0);
+    if options.matcap {
+        // Images begin at the top left; the lookup has v upwards.
+        let matcap_uv = mtoon_matcap_uv(normal, view) * vec2f(1.0, -1.0) + vec2f(0.0, 1.0);
+        matcap = textureSample(matcap_texture, matcap_sampler, matcap_uv).rgb * material.matcap_color;
+    }
+    if options.shaped_highlight {
+        if options.matcap {
+            // Metal tints what it mirrors.
+            let tinted = base.rgb / max(max(base.r, base.g), max(base.b, 1e-3));
+            direct = mix(direct, matcap * tinted * light * mix(0.6, 1.0, shading), material.matcap_mix);
+            matcap *= 1.0 - material.matcap_mix;
+        }
+        let left = mix(material.shaped_in_shade, 1.0, shading) * material.shaped_strength;
+        let share = shaped_highlight(normal, view, tangent, options.shaped_map, options.shaped_brushed) * left;
+        direct = mix(direct, material.shaped_color * light, share);
+        shine = max(shine, share);
+    }
+    if options.sparkle {
+        let bitangent = cross(normal, tangent) * in.tangent.w;
+        let sparkling = sparks(normal, view, tangent, bitangent, in.uv.xy);
+        direct += material.sparkle_color * light * sparkling * own_lit;
+        if options.channel == CHANNEL_SPARKLE {
+            extra = vec3f(sparkling);
+        }
+    }
+    var color = direct + ambient_part + emission;
 
     if options.rim || options.matcap {
-        let v = normalize(frame.eye - in.world_position);
-        var matcap = vec3f(0.0);
-        if options.matcap {
-            // Images begin at the top left; the lookup has v upwards.
-            let matcap_uv = mtoon_matcap_uv(normal, v) * vec2f(1.0, -1.0) + vec2f(0.0, 1.0);
-            matcap = textureSample(matcap_texture, matcap_sampler, matcap_uv).rgb * material.matcap_color;
-        }
         var parametric = vec3f(0.0);
         if options.rim {
             parametric = material.rim_color
-                * mtoon_parametric_rim(dot(normal, v), material.rim_lift, material.rim_fresnel_power);
+                * mtoon_parametric_rim(dot(normal, view), material.rim_lift, material.rim_fresnel_power);
         }
         var mask = vec3f(1.0);
         if options.rim_mask {
@@ -381,27 +499,159 @@ fn shade_surface(options: SurfaceOptions, in: SurfaceInput) -> vec4f {
     var contour = 0.0;
     if options.depth_rim {
         let seen = (frame.view_from_world * vec4f(normal, 0.0)).xy;
-        let light_seen = (frame.view_from_world * vec4f(frame.to_light, 0.0)).xy;
-        // 1e-12: a normal or a light towards the viewer has no direction there.
-        let outwards = dot(seen, light_seen) * inverseSqrt(max(dot(seen, seen) * dot(light_seen, light_seen), 1e-12));
         let height = f32(textureDimensions(frame_depth).y);
-        let offset = depth_rim_offset(seen, material.depth_rim_width, height);
+        var width = material.depth_rim_width;
+        if options.rim_width {
+            width *= textureSample(rim_width_texture, base_sampler, texture_uv(options, uv, material.rim_width_uv)).r;
+        }
+        let offset = depth_rim_offset(seen, width, height);
         let here = frame.near / max(in.pixel.z, 1e-12);
         // Two places a pixel apart soften the inner edge; a little less, since half a pixel lies between two centres.
         let half_px = offset * (0.49 / max(length(offset), 0.5));
         let near_step = distance_at(vec2i(floor(in.pixel.xy + offset - half_px))) - here;
         let far_step = distance_at(vec2i(floor(in.pixel.xy + offset + half_px))) - here;
         let threshold = material.depth_rim_threshold;
-        contour = 0.5 * (depth_rim_step(near_step, threshold) + depth_rim_step(far_step, threshold))
-            * depth_rim_side(dot(normal, frame.to_light), outwards, material.depth_rim_side)
-            * depth_rim_resolved(material.depth_rim_width, height);
+        let edge = 0.5 * (depth_rim_step(near_step, threshold) + depth_rim_step(far_step, threshold))
+            * depth_rim_resolved(width, height) * depth_rim_near(here, material.depth_rim_fade);
+        let lit_side = rim_side(normal, seen, frame.to_light);
+        contour = edge * lit_side;
         let own = mix(vec3f(1.0), base.rgb, material.depth_rim_tint);
-        color += material.depth_rim_color * own * frame.light_color * contour;
+        var rim = material.depth_rim_color * frame.light_color * contour;
+        if options.rim_shade {
+            let shaded = edge * (1.0 - lit_side);
+            rim += material.depth_rim_shade * (frame.light_color * 0.5 + gi) * shaded;
+            contour = max(contour, shaded * 0.5);
+        }
+        for (var i = 0u; i < frame.punctual_count; i++) {
+            let arriving = punctual_light(i, in.world_position);
+            let from_there = edge * rim_side(normal, seen, arriving.to_light) * material.depth_rim_punctual;
+            rim += material.depth_rim_color * min(arriving.radiance, vec3f(1.0)) * from_there;
+            contour = max(contour, from_there * saturate(luminance(arriving.radiance)));
+        }
+        color += rim * own;
+    }
+    if options.inner_lines {
+        let line = inner_line(in.pixel, normal);
+        if options.channel == CHANNEL_INNER_LINES {
+            extra = vec3f(line);
+        }
+        // It darkens what is there: a line never glows.
+        color *= mix(vec3f(1.0), material.line_tint, line);
     }
     if options.channel != 0u {
-        color = channel_color(options, shading, tint, paint, shine, bangs, contour, soft, fur, own_lit);
+        color = channel_color(options, shading, tint, paint, shine, bangs, contour, soft, fur, own_lit, extra);
     }
     return vec4f(color, base.a);
+}
+
+// What of a surface blooms.
+fn glow_surface(options: SurfaceOptions, in: SurfaceInput) -> vec3f {
+    let uv = animated_uv(options, in.uv);
+    if options.fire {
+        let shape = burning_shape(options, uv);
+        return shape.rgb * shape.a * material.glow;
+    }
+    if options.alpha_mask && material.base_color.a * surface_texel(options, in, uv).a < material.alpha_cutoff {
+        discard;
+    }
+    var burn = 1.0;
+    if options.dissolve {
+        burn = burning(in.uv.xy);
+        if burn < 0.0 {
+            discard;
+        }
+    }
+    var light = emitted(options, uv, burn) * material.glow;
+    if options.unlit {
+        return light;
+    }
+    let normal = normalize(in.normal);
+    let view = normalize(frame.eye - in.world_position);
+    let tangent = normalize_or(in.tangent.xyz - normal * dot(normal, in.tangent.xyz), vec3f(0.0));
+    if options.shaped_highlight {
+        let share = shaped_highlight(normal, view, tangent, options.shaped_map, options.shaped_brushed);
+        light += material.shaped_color * frame.light_color * share * material.shaped_strength * material.glow_highlight;
+    }
+    if options.highlight {
+        let at = texture_uv(options, uv, material.highlight_uv) + in.highlight.xy;
+        let layer = textureSample(highlight_texture, highlight_sampler, at).r;
+        let left = in.highlight.z * smoothstep(0.0, 0.1, dot(normal, frame.to_light));
+        light += material.highlight_color * frame.light_color
+            * (layer * left * material.highlight_strength * material.glow_highlight);
+    }
+    if options.sparkle {
+        let bitangent = cross(normal, tangent) * in.tangent.w;
+        let sparkling = sparks(normal, view, tangent, bitangent, in.uv.xy);
+        light += material.sparkle_color * frame.light_color * sparkling * material.glow_highlight;
+    }
+    return light;
+}
+
+// Light of the surface's own; `burn` is its place in a dissolve.
+fn emitted(options: SurfaceOptions, uv: vec4f, burn: f32) -> vec3f {
+    var emission = material.emission;
+    if options.emission_texture {
+        var at = texture_uv(options, uv, material.emission_uv);
+        if options.emission_scroll {
+            at += fract(material.emission_scroll * frame.time_s);
+        }
+        emission *= textureSample(emission_texture, emission_sampler, at).rgb;
+    }
+    if options.emission_blink {
+        emission *= blink(fract(frame.time_s / material.blink_period), material.blink_low, material.blink_sharpness);
+    }
+    if options.dissolve {
+        emission += material.dissolve_color * (1.0 - saturate(burn));
+    }
+    return emission;
+}
+
+// Share of a line at a pixel: eight places round it are compared with it.
+fn inner_line(pixel: vec3f, normal: vec3f) -> f32 {
+    let height = f32(textureDimensions(frame_depth).y);
+    let radius = max(material.line_width * height / 1024.0 * 0.5, 0.75);
+    let own = surface_at(vec2i(pixel.xy));
+    let here = frame.near / max(pixel.z, 1e-12);
+    var different = 0.0;
+    for (var i = 0; i < 8; i++) {
+        let angle = f32(i) * 0.78539816;
+        let at = vec2i(floor(pixel.xy + vec2f(cos(angle), sin(angle)) * radius));
+        let other = surface_at(at);
+        let step = abs(distance_at(at) - here);
+        different += line_between(
+            own.part, other.part, dot(own.normal, other.normal), step, material.line_steps, material.line_parts > 0.5
+        );
+    }
+    return smoothstep(0.1, 0.45, different / 8.0);
+}
+
+// Share of a rim by the side of a light; `seen` is the normal as it is seen.
+fn rim_side(normal: vec3f, seen: vec2f, to_light: vec3f) -> f32 {
+    let light_seen = (frame.view_from_world * vec4f(to_light, 0.0)).xy;
+    // 1e-12: a normal or a light towards the viewer has no direction there.
+    let outwards = dot(seen, light_seen) * inverseSqrt(max(dot(seen, seen) * dot(light_seen, light_seen), 1e-12));
+    return depth_rim_side(dot(normal, to_light), outwards, material.depth_rim_side);
+}
+
+// Fire: colour and cover.
+fn burning_shape(options: SurfaceOptions, uv: vec4f) -> vec4f {
+    var at = texture_uv(options, uv, material.highlight_uv);
+    let phase = fract(frame.time_s / material.fire_period);
+    let noise = fire_noise(at, phase, material.fire_cells);
+    at.x += fire_sway(at, phase, material.fire_cells, material.fire_sway);
+    let drawn = textureSample(highlight_texture, highlight_sampler, at).r;
+    let heat = fire_heat(drawn, noise, material.fire_turbulence);
+    let cover = fire_cover(heat, material.fire_erosion, material.fire_softness);
+    if options.channel == CHANNEL_FIRE {
+        return vec4f(vec3f(heat), cover);
+    }
+    if options.channel != 0u {
+        return vec4f(vec3f(0.0), cover);
+    }
+    let color = fire_color(
+        heat, material.fire_rim, material.fire_body, material.fire_heart, material.fire_edges, material.fire_softness
+    );
+    return vec4f(color, cover);
 }
 
 // Number of the part at a place, from 0 on; -1 where the map knows none. The texel itself: numbers are not filtered.
@@ -477,7 +727,7 @@ fn ramp_color(options: SurfaceOptions, uv: vec4f, lit: vec3f, shade: vec3f, plac
 // What one of the debug channels shows.
 fn channel_color(
     options: SurfaceOptions, shading: f32, tint: vec3f, paint: vec3f, shine: f32, bangs: f32, contour: f32,
-    place: f32, fur: vec3f, own_lit: f32
+    place: f32, fur: vec3f, own_lit: f32, extra: vec3f
 ) -> vec3f {
     switch options.channel {
         case CHANNEL_FACE_SHADOW { return vec3f(shading) * select(vec3f(0.25), vec3f(1.0), options.face_shadow); }
@@ -490,7 +740,7 @@ fn channel_color(
         case CHANNEL_SHADE_RAMP { return select(vec3f(0.0), vec3f(place), options.shade_ramp); }
         case CHANNEL_FUR { return fur; }
         case CHANNEL_SELF_SHADOW { return select(vec3f(0.0), vec3f(own_lit), options.cast_shadow); }
-        default { return vec3f(0.0); }
+        default { return extra; }
     }
 }
 

@@ -2,7 +2,7 @@
 import package::bind::character::{bangs_from_character, character, shadow_receiver};
 import package::bind::frame::frame;
 import package::bind::material::material;
-import package::bind::surface::{SurfaceInput, SurfaceOptions};
+import package::bind::surface::{SurfaceInput, SurfaceOptions, has_tangents};
 import package::bind::vertex::{VertexInput, bitangent_sign, world_direction, world_position, world_rotated};
 import package::lib::eyes_through::pulled_depth;
 import package::lib::face_shadow::{face_light_angle, face_measure};
@@ -24,7 +24,7 @@ struct Varying {
 fn surface_varying(options: SurfaceOptions, v: VertexInput) -> Varying {
     let position = world_position(v, v.position);
     var tangent = vec4f(0.0);
-    if options.normal_map || options.fur_detail {
+    if has_tangents(options) {
         tangent = vec4f(world_direction(v, v.frame.y), bitangent_sign(v.frame.y));
     }
     var face_light = vec4f(0.0);

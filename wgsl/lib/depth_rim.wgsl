@@ -23,3 +23,8 @@ fn depth_rim_side(n_dot_l: f32, outwards: f32, side: vec2f) -> f32 {
 fn depth_rim_resolved(width: f32, height: f32) -> f32 {
     return saturate(width * height / 1024.0 - 0.5);
 }
+
+// Share that is left at a distance between those at which it begins to fade and has gone, metres.
+fn depth_rim_near(distance: f32, fade: vec2f) -> f32 {
+    return 1.0 - smoothstep(fade.x, max(fade.y, fade.x + 1e-4), distance);
+}

@@ -1,8 +1,7 @@
 // Depth of what casts on the face, from the light of the bangs' shadow.
 import package::bind::character::{bangs_from_character, bangs_from_world};
 import package::bind::options::surface_options;
-import package::bind::material::material;
-import package::bind::surface::{animated_uv, surface_texel, texel_input};
+import package::bind::surface::surface_cut;
 import package::bind::vertex::{VertexInput, world_position};
 
 override ALPHA_TEST: bool = false;
@@ -27,13 +26,8 @@ fn vs_main(v: VertexInput) -> BangsVarying {
 
 @fragment
 fn fs_main(in: BangsVarying) -> @location(0) vec4f {
-    if ALPHA_TEST {
-        let options = surface_options();
-        let input = texel_input(in.uv, in.color);
-        let texel = surface_texel(options, input, animated_uv(options, in.uv));
-        if material.base_color.a * texel.a < material.alpha_cutoff {
-            discard;
-        }
+    if ALPHA_TEST && surface_cut(surface_options(), in.uv, in.color) {
+        discard;
     }
     return vec4f(in.depth, 0.0, 0.0, 1.0);
 }

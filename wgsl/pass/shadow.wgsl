@@ -1,8 +1,7 @@
 // Depth of a character from the key light.
 import package::bind::character::shadow_from_world;
-import package::bind::material::material;
 import package::bind::options::surface_options;
-import package::bind::surface::{animated_uv, surface_texel, texel_input};
+import package::bind::surface::surface_cut;
 import package::bind::vertex::{VertexInput, world_position};
 
 override ALPHA_TEST: bool = false;
@@ -22,9 +21,7 @@ fn vs_main(v: VertexInput) -> ShadowVarying {
 
 @fragment
 fn fs_main(in: ShadowVarying) {
-    let options = surface_options();
-    let texel = surface_texel(options, texel_input(in.uv, in.color), animated_uv(options, in.uv));
-    if ALPHA_TEST && material.base_color.a * texel.a < material.alpha_cutoff {
+    if ALPHA_TEST && surface_cut(surface_options(), in.uv, in.color) {
         discard;
     }
 }

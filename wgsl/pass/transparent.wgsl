@@ -1,4 +1,5 @@
 // Blended surfaces; the output is premultiplied.
+import package::bind::material::material;
 import package::bind::options::surface_options;
 import package::bind::surface::shade_surface;
 import package::bind::varying::{Varying, surface_varying, surface_input};
@@ -20,5 +21,9 @@ fn fs_main(in: Varying, @builtin(front_facing) front_facing: bool) -> @location(
         color = srgb_from_linear(color);
     }
     let alpha = saturate(surface.a);
+    if surface_options().fire {
+        // What it adds instead of covering leaves what is behind it.
+        return vec4f(color * alpha, alpha * (1.0 - material.fire_additive));
+    }
     return vec4f(color * alpha, alpha);
 }

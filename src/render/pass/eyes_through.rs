@@ -37,11 +37,11 @@ impl EyesThroughPass {
     ) -> wgpu::RenderPipeline {
         let make = || {
             let mut constants = flags.constants();
-            constants.push(encode_constant(self.output));
+            constants.push(encode_constant(flags.output(self.output)));
             color_pipeline(
                 gpu,
                 layouts,
-                self.output,
+                flags.output(self.output),
                 &ColorPipeline {
                     label: "eyes through",
                     module: &self.module,

@@ -2,11 +2,16 @@
 
 pub(crate) mod bangs_near;
 pub(crate) mod bangs_shadow;
+pub(crate) mod bloom;
 pub(crate) mod deform;
 pub(crate) mod eyes_through;
 pub(crate) mod floor;
+pub(crate) mod fluff;
+pub(crate) mod glow;
 pub(crate) mod opaque;
 pub(crate) mod outline;
+#[doc(hidden)]
+pub mod post;
 pub(crate) mod prepass;
 pub(crate) mod shadow;
 pub(crate) mod transparent;
@@ -48,6 +53,9 @@ impl Driven {
 
 /// Depth format of the prepass; of the colour pass where the device has no stencil beside 32 bits of depth.
 pub(crate) const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+
+/// Colour of frames that are finished by [`post`], and of light.
+pub(crate) const HDR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
 
 /// Depth format of the colour pass.
 pub(crate) fn color_depth_format(gpu: &Gpu) -> wgpu::TextureFormat {
@@ -153,6 +161,25 @@ pub(crate) struct SurfaceFlags {
     pub fur_detail: bool,
     pub fur_color: bool,
     pub depth_rim: bool,
+    pub shaped_highlight: bool,
+    pub shaped_map: bool,
+    pub shaped_brushed: bool,
+    pub sparkle: bool,
+    pub gem: bool,
+    pub gem_inclusions: bool,
+    pub diamond: bool,
+    pub fire: bool,
+    pub emission_scroll: bool,
+    pub emission_blink: bool,
+    pub stocking: bool,
+    pub decals: bool,
+    pub dissolve: bool,
+    pub dither_fade: bool,
+    pub rim_width: bool,
+    pub rim_shade: bool,
+    pub inner_lines: bool,
+    /// Draws into half floats, which [`post`] finishes; no override.
+    pub hdr: bool,
     /// [`Channel::shader_code`](super::Channel::shader_code).
     pub channel: u32,
 }
@@ -184,6 +211,8 @@ impl SurfaceFlags {
         let ramp_maps = ramp.and_then(|r| r.maps);
         let part_ids = ramp_maps.and_then(|m| m.part_ids);
         let fur = material.fur_detail.filter(|_| toon.is_some());
+        let shaped = material.shaped_highlight.filter(|_| toon.is_some());
+        let gem = material.gem.filter(|_| toon.is_some());
         let used = [
             material.base.texture,
             shade_texture,
@@ -193,7 +222,8 @@ impl SurfaceFlags {
             rim_mask,
             outline_mask,
             animation_mask,
-            highlight.map(|h| h.map),
+            material.painted_highlight(),
+            material.depth_rim.and_then(|r| r.width_mask),
             face_paint.map(|p| p.map),
             material.part_ids(),
             fur.map(|f| f.detail_normal),
@@ -239,8 +269,32 @@ impl SurfaceFlags {
             fur_detail: fur.is_some(),
             fur_color: fur.is_some_and(|f| f.detail_color.is_some()),
             depth_rim: toon.is_some() && material.depth_rim.is_some_and(|r| r.strength > 0.0),
+            shaped_highlight: shaped.is_some(),
+            shaped_map: shaped.is_some_and(|s| s.map.is_some()) && highlight.is_none(),
+            shaped_brushed: shaped.is_some_and(|s| s.anisotropy > 0.0),
+            sparkle: toon.is_some() && material.sparkle.is_some(),
+            gem: gem.is_some(),
+            gem_inclusions: gem.is_some_and(|g| g.inclusions.is_some()) && fur.is_none(),
+            diamond: toon.is_some() && gem.is_none() && material.diamond.is_some(),
+            fire: material.is_fire(),
+            emission_scroll: emission_texture.is_some() && material.emission.scroll_per_s != [0.0; 2],
+            emission_blink: material.emission.blink.is_some(),
+            stocking: toon.is_some() && material.stocking.is_some(),
+            decals: toon.is_some() && material.decals.as_ref().is_some_and(|d| !d.placed.is_empty()),
+            dissolve: material.dissolve.is_some(),
+            dither_fade: material.dither_fade.is_some(),
+            rim_width: material.depth_rim.is_some_and(|r| r.width_mask.is_some()),
+            rim_shade: material.depth_rim.is_some_and(|r| r.shade_color != [0.0; 3]),
+            inner_lines: toon.is_some() && material.inner_lines.is_some(),
+            hdr: false,
             channel: 0,
         }
+    }
+
+    /// What a pipeline with these draws into, if pictures go to `output`.
+    pub fn output(&self, output: Output) -> Output {
+        let format = if self.hdr { HDR_FORMAT } else { output.format };
+        Output { format, ..output }
     }
 
     /// Values of the overrides of `wgsl/bind/options.wgsl`.
@@ -284,6 +338,23 @@ impl SurfaceFlags {
             ("FUR_DETAIL", self.fur_detail),
             ("FUR_COLOR", self.fur_color),
             ("DEPTH_RIM", self.depth_rim),
+            ("SHAPED_HIGHLIGHT", self.shaped_highlight),
+            ("SHAPED_MAP", self.shaped_map),
+            ("SHAPED_BRUSHED", self.shaped_brushed),
+            ("SPARKLE", self.sparkle),
+            ("GEM", self.gem),
+            ("GEM_INCLUSIONS", self.gem_inclusions),
+            ("DIAMOND", self.diamond),
+            ("FIRE", self.fire),
+            ("EMISSION_SCROLL", self.emission_scroll),
+            ("EMISSION_BLINK", self.emission_blink),
+            ("STOCKING", self.stocking),
+            ("DECALS", self.decals),
+            ("DISSOLVE", self.dissolve),
+            ("DITHER_FADE", self.dither_fade),
+            ("RIM_WIDTH", self.rim_width),
+            ("RIM_SHADE", self.rim_shade),
+            ("INNER_LINES", self.inner_lines),
         ]
         .map(|(name, on)| (name, f64::from(u8::from(on))))
         .into_iter()
@@ -376,5 +447,6 @@ pub(crate) fn surface_cull(material: &Material) -> Option<wgpu::Face> {
 
 /// Whether the shader must encode sRGB because the target does not.
 pub(crate) fn encode_constant(output: Output) -> (&'static str, f64) {
-    ("ENCODE_SRGB", if output.format.is_srgb() { 0.0 } else { 1.0 })
+    let holds_linear = output.format.is_srgb() || output.format == HDR_FORMAT;
+    ("ENCODE_SRGB", if holds_linear { 0.0 } else { 1.0 })
 }

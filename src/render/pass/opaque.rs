@@ -41,11 +41,11 @@ impl OpaquePass {
         let flags = SurfaceFlags { alpha_coverage: covered, ..flags };
         let make = || {
             let mut constants = flags.constants();
-            constants.push(encode_constant(self.output));
+            constants.push(encode_constant(flags.output(self.output)));
             color_pipeline(
                 gpu,
                 layouts,
-                self.output,
+                flags.output(self.output),
                 &ColorPipeline {
                     label: "opaque",
                     module: &self.module,

@@ -68,7 +68,7 @@ impl OutlinePass {
         let shaded = mixed || material.alpha.mode != AlphaMode::Opaque;
         let mut key = OutlineKey {
             // A line never glows.
-            flags: SurfaceFlags { depth_rim: false, ..flags },
+            flags: SurfaceFlags { depth_rim: false, inner_lines: false, ..flags },
             screen_width,
             width_mask: outline.width_mask.is_some(),
             shaded,
@@ -83,18 +83,18 @@ impl OutlinePass {
         };
         if !shaded && !key.tint {
             // A plain colour needs nothing of the surface but the UVs of its mask: fewer pipelines.
-            let SurfaceFlags { uv_transforms, uv_animation, uv_animation_mask, .. } = flags;
+            let SurfaceFlags { uv_transforms, uv_animation, uv_animation_mask, hdr, .. } = flags;
             key.flags = if key.width_mask {
-                SurfaceFlags { uv_transforms, uv_animation, uv_animation_mask, ..SurfaceFlags::default() }
+                SurfaceFlags { uv_transforms, uv_animation, uv_animation_mask, hdr, ..SurfaceFlags::default() }
             } else {
-                SurfaceFlags::default()
+                SurfaceFlags { hdr, ..SurfaceFlags::default() }
             };
         }
         let make = || {
             let mut constants = key.flags.constants();
             let flag = |on: bool| f64::from(u8::from(on));
             constants.extend([
-                encode_constant(self.output),
+                encode_constant(key.flags.output(self.output)),
                 ("SCREEN_WIDTH", flag(key.screen_width)),
                 ("WIDTH_MASK", flag(key.width_mask)),
                 ("OUTLINE_SHADED", flag(key.shaded)),
@@ -109,7 +109,7 @@ impl OutlinePass {
             color_pipeline(
                 gpu,
                 layouts,
-                self.output,
+                key.flags.output(self.output),
                 &ColorPipeline {
                     label: "outline",
                     module: &self.module,

@@ -1,4 +1,4 @@
-//! Depth, view-space normal and part id, one sample a pixel, for effects and channels that read them.
+//! Depth, normal and part, one sample a pixel, for effects and channels that read them.
 
 use std::collections::HashMap;
 
@@ -9,10 +9,8 @@ use crate::{
     render::{Layouts, draw_list, shaders, targets::PrepassTargets, upload::GpuScene},
 };
 
-/// Format of the view-space normal, 0..1.
-pub(crate) const NORMAL_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
-/// Format of the part index + 1.
-pub(crate) const PART_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
+/// Format of the world normal (octahedral, two halves of a word) and the part index + 1.
+pub(crate) const SURFACES_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rg32Uint;
 
 /// Pipelines by cut-out, culling and targets.
 #[derive(Debug)]
@@ -26,8 +24,10 @@ pub(crate) struct PrepassInputs<'a> {
     pub scene: &'a GpuScene,
     pub frame: &'a wgpu::BindGroup,
     pub targets: &'a PrepassTargets,
-    /// One for each draw of the scene.
-    pub pipelines: &'a [wgpu::RenderPipeline],
+    /// Whether normals and parts are drawn, too.
+    pub surfaces: bool,
+    /// One for each draw of the scene; `None` leaves it out.
+    pub pipelines: &'a [Option<wgpu::RenderPipeline>],
 }
 
 impl PrepassPass {
@@ -44,9 +44,13 @@ impl PrepassPass {
         material: &Material,
         depth_only: bool,
     ) -> wgpu::RenderPipeline {
-        let alpha_test = material.alpha.mode != AlphaMode::Opaque;
+        let alpha_test = material.alpha.mode != AlphaMode::Opaque || flags.dissolve || flags.dither_fade;
         // Without a cut-out nothing is sampled: one pipeline serves all.
-        let flags = if alpha_test { flags } else { SurfaceFlags::default() };
+        let flags = if alpha_test {
+            SurfaceFlags { hdr: false, ..flags }
+        } else {
+            SurfaceFlags::default()
+        };
         let make = || {
             let mut constants = flags.constants();
             constants.push(("ALPHA_TEST", f64::from(u8::from(alpha_test))));
@@ -54,7 +58,7 @@ impl PrepassPass {
             let (entry_point, targets) = if depth_only {
                 ("fs_depth", &[] as &[Option<wgpu::ColorTargetState>])
             } else {
-                ("fs_main", &[Some(NORMAL_FORMAT.into()), Some(PART_FORMAT.into())] as _)
+                ("fs_main", &[Some(SURFACES_FORMAT.into())] as _)
             };
             gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
                 label: Some("prepass"),
@@ -85,59 +89,39 @@ impl PrepassPass {
         self.pipelines.entry((flags, alpha_test, material.double_sided, depth_only)).or_insert_with(make).clone()
     }
 
-    /// Draws the depth of every surface that is not seen through.
-    pub fn encode_depth(
+    /// Draws surfaces.
+    pub fn encode(
         &self,
         encoder: &mut wgpu::CommandEncoder,
-        scene: &GpuScene,
-        frame: &wgpu::BindGroup,
-        depth: &wgpu::TextureView,
+        inputs: &PrepassInputs<'_>,
         timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
     ) {
+        let surfaces = Some(wgpu::RenderPassColorAttachment {
+            view: &inputs.targets.surfaces_view,
+            depth_slice: None,
+            resolve_target: None,
+            ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT), store: wgpu::StoreOp::Store },
+        });
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("depth"),
+            label: Some("prepass"),
+            color_attachments: if inputs.surfaces {
+                std::slice::from_ref(&surfaces)
+            } else {
+                &[]
+            },
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                view: depth,
+                view: &inputs.targets.depth_view,
                 depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store }),
                 stencil_ops: None,
             }),
             timestamp_writes: timestamps,
             ..Default::default()
         });
-        draw_list::bind_scene(&mut pass, scene, frame, &scene.character_group);
-        for draw in &scene.draws {
-            if let Some(pipeline) = &draw.depth {
-                draw_list::record(&mut pass, scene, draw, pipeline);
-            }
-        }
-    }
-
-    /// Draws every surface.
-    pub fn encode(&self, encoder: &mut wgpu::CommandEncoder, inputs: &PrepassInputs<'_>) {
-        let attach = |view| {
-            Some(wgpu::RenderPassColorAttachment {
-                view,
-                depth_slice: None,
-                resolve_target: None,
-                ops: wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
-                    store: wgpu::StoreOp::Store,
-                },
-            })
-        };
-        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("prepass"),
-            color_attachments: &[attach(&inputs.targets.normal_view), attach(&inputs.targets.part_view)],
-            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                view: &inputs.targets.depth_view,
-                depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store }),
-                stencil_ops: None,
-            }),
-            ..Default::default()
-        });
         draw_list::bind_scene(&mut pass, inputs.scene, inputs.frame, &inputs.scene.character_group);
         for (draw, pipeline) in inputs.scene.draws.iter().zip(inputs.pipelines) {
-            draw_list::record(&mut pass, inputs.scene, draw, pipeline);
+            if let Some(pipeline) = pipeline {
+                draw_list::record(&mut pass, inputs.scene, draw, pipeline);
+            }
         }
     }
 }

@@ -145,9 +145,13 @@ impl ShadowPass {
         flags: SurfaceFlags,
         material: &Material,
     ) -> wgpu::RenderPipeline {
-        let alpha_test = material.alpha.mode != AlphaMode::Opaque;
+        let alpha_test = material.alpha.mode != AlphaMode::Opaque || flags.dissolve;
         // Without a cut-out nothing is sampled: one pipeline serves all.
-        let flags = if alpha_test { flags } else { SurfaceFlags::default() };
+        let flags = if alpha_test {
+            SurfaceFlags { hdr: false, ..flags }
+        } else {
+            SurfaceFlags::default()
+        };
         let make = || {
             let mut constants = flags.constants();
             constants.push(("ALPHA_TEST", f64::from(u8::from(alpha_test))));

@@ -97,6 +97,9 @@ pub struct Material {
     pub extras: BTreeMap<&'static str, &'static str>,
     /// Row of the ramps, from above.
     pub ramp_row: usize,
+    /// What it is, where Hikage's looks treat it in their own way: `metal`, `amber`, `diamond`, `fire`, `fluff`,
+    /// `stocking`.
+    pub substance: Option<&'static str>,
 }
 
 impl Default for Material {
@@ -122,6 +125,7 @@ impl Default for Material {
             scroll: [0.0; 2],
             extras: BTreeMap::new(),
             ramp_row: 0,
+            substance: None,
         }
     }
 }

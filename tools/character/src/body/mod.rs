@@ -58,6 +58,7 @@ fn materials(model: &mut Model) {
             outline: 0.0009,
             outline_color: srgb(0x17101f),
             rim: Some((srgb(0x6b5a86), 5.0, 0.0)),
+            substance: Some("stocking"),
             ..Material::default()
         },
         Material {
@@ -76,6 +77,8 @@ fn materials(model: &mut Model) {
             matcap: Some(("metal_matcap", [0.8; 3])),
             outline: 0.0006,
             outline_color: srgb(0x2e180f),
+            extras: [("highlightShape", "metal_highlight")].into(),
+            substance: Some("metal"),
             ..Material::default()
         },
         Material { name: "Cloth_Shorts", color: srgba(0x3a3346), shade: srgb(0x241d36), ..Material::default() },

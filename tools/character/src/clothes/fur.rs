@@ -1,4 +1,4 @@
-//! The fur collar and the fluffy cuffs: a soft core under rows of tufts.
+//! The fur collar, a soft core under rows of tufts, and the fluffy cuffs.
 
 use std::f32::consts::TAU;
 
@@ -146,14 +146,14 @@ fn fix_winding(part: &mut Part, first: u32) {
     }
 }
 
-/// The cuff of the left sleeve.
+/// The cuff of the left sleeve: a soft ring, over which looks lay a coat of short hair.
 pub(super) fn cuff(skeleton: &Skeleton) -> Part {
     let mut part = Part::new("FurCuffs", "Jacket_Cuff");
     let center = Vec3::new(0.503, 1.215, -0.015);
     let (radius, thick) = (0.0375, 0.0165);
     let bone = weights::arm(skeleton, center - Vec3::X * 0.03);
-    const AROUND: usize = 20;
-    const TUBE: usize = 8;
+    const AROUND: usize = 40;
+    const TUBE: usize = 14;
     // A ring round the wrist; its own section turns about it.
     let rows: Vec<Vec<Vec3>> = (0..=TUBE)
         .map(|k| {
@@ -163,34 +163,7 @@ pub(super) fn cuff(skeleton: &Skeleton) -> Part {
             ring_in(middle, Vec3::NEG_Z * reach, Vec3::Y * reach, AROUND)
         })
         .collect();
-    grid(&mut part, &rows, true, |r, c| Vec2::new(0.05 + 0.9 * (c * 4.0).fract(), 0.04 + 0.2 * r), |_| bone);
-    for (row, &(degrees, count, size)) in
-        [(66.0f32, 22u32, 0.9f32), (30.0, 24, 1.1), (-6.0, 24, 1.15), (-44.0, 22, 1.0)].iter().enumerate()
-    {
-        for i in 0..count {
-            let id = 900 + row as u32 * 50 + i;
-            let around = (i as f32 + 0.5 * (row % 2) as f32 + 0.5 * (hash(id, 1, 75) - 0.5)) / count as f32 * TAU;
-            let radial = Vec3::new(0.0, around.cos(), around.sin());
-            let angle = degrees.to_radians();
-            let out = radial * angle.cos() - Vec3::X * angle.sin();
-            let along = radial * angle.sin() + Vec3::X * angle.cos();
-            let length = thick * (1.5 + 0.6 * hash(id, 2, 76)) * size;
-            let sway = radial.cross(Vec3::X) * (hash(id, 3, 77) - 0.5) * 0.7;
-            let root = center + radial * radius + out * thick * 0.6 - along * length * 0.3;
-            tuft::add(
-                &mut part,
-                &Tuft {
-                    root,
-                    reach: (along * 0.95 + out * 0.42 + sway).normalize() * length,
-                    out,
-                    half: thick * (0.38 + 0.13 * hash(id, 4, 78)),
-                    bend: 0.12,
-                    column: 0.125 + 0.25 * (id % 4) as f32,
-                },
-                bone,
-            );
-        }
-    }
+    grid(&mut part, &rows, true, |r, c| Vec2::new(c, 0.04 + 0.33 * r), |_| bone);
     part.smooth_normals();
     soften(&mut part, |p| {
         let radial = (p - center).with_x(0.0).normalize_or(Vec3::Y);

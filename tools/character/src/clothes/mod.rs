@@ -61,8 +61,8 @@ fn materials(model: &mut Model) {
         outline_color: srgb(line),
         ..Material::default()
     };
-    let fur = |name| Material {
-        name,
+    let fur = Material {
+        name: "Jacket_Fur",
         texture: Some("fur"),
         shade: srgb(0xcdbce0),
         shade_texture: Some("fur"),
@@ -76,8 +76,16 @@ fn materials(model: &mut Model) {
         cloth("Cloth_Blouse", "blouse", 0xc2bde6, 0x4a4674),
         Material { extras: [("partId", "jacket_part_id")].into(), ..cloth("Jacket", "jacket", 0x9a88c8, 0x14142c) },
         Material { name: "Jacket_Lining", color: srgba(0xe8a33d), shade: srgb(0xb0603a), ..Material::default() },
-        fur("Jacket_Fur"),
-        fur("Jacket_Cuff"),
+        fur,
+        Material {
+            name: "Jacket_Cuff",
+            color: srgba(0xf6f0fa),
+            shade: srgb(0xc6b6dc),
+            outline: 0.001,
+            outline_color: srgb(0x6d6488),
+            substance: Some("fluff"),
+            ..Material::default()
+        },
         Material { outline_mask: Some("skirt_outline"), ..cloth("Skirt", "skirt", 0xb09cd8, 0x171228) },
         Material {
             name: "Cloth_Belt",

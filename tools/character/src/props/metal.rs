@@ -34,7 +34,7 @@ pub(super) fn brooch(skeleton: &Skeleton) -> Part {
     let mut part = Part::new("Brooch", "Metal_Brooch");
     let up = Vec3::new(0.0, 0.9, -0.44).normalize();
     let bone = skeleton.only("upperChest");
-    let center = before_chest(KNOT_Y, 0.0105);
+    let center = before_chest(KNOT_Y, 0.0128);
     let profile = [
         [0.0085, -0.002],
         [0.0106, -0.001],

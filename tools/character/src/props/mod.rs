@@ -64,6 +64,8 @@ fn materials(model: &mut Model) {
         texture("amber_matcap", paint::amber_matcap),
         texture("diamond_matcap", paint::diamond_matcap),
         texture("flame", paint::flame),
+        texture("flame_heat", paint::flame_heat),
+        Texture { name: "amber_inclusions", paint: paint::amber_inclusions, repeat: true },
     ]);
     let metal = |name, color, shade, line, gloss| Material {
         name,
@@ -73,6 +75,7 @@ fn materials(model: &mut Model) {
         outline: 0.0006,
         outline_color: srgb(line),
         extras: [("highlightShape", "metal_highlight")].into(),
+        substance: Some("metal"),
         ..Material::default()
     };
     model.materials.extend([
@@ -94,6 +97,8 @@ fn materials(model: &mut Model) {
             matcap: Some(("amber_matcap", [0.9; 3])),
             outline: 0.0006,
             outline_color: srgb(0x5a2410),
+            extras: [("inclusions", "amber_inclusions")].into(),
+            substance: Some("amber"),
             ..Material::default()
         },
         Material {
@@ -103,6 +108,7 @@ fn materials(model: &mut Model) {
             matcap: Some(("diamond_matcap", [0.85; 3])),
             outline: 0.0005,
             outline_color: srgb(0x39406e),
+            substance: Some("diamond"),
             ..Material::default()
         },
         Material {
@@ -115,6 +121,8 @@ fn materials(model: &mut Model) {
             emission_texture: Some("flame"),
             alpha: Alpha::Blend { depth_write: false, queue: 3 },
             double_sided: true,
+            extras: [("heat", "flame_heat")].into(),
+            substance: Some("fire"),
             ..Material::default()
         },
     ]);

@@ -93,39 +93,40 @@ pub(super) fn diamond_matcap() -> Picture {
     })
 }
 
+/// The outline of the flame, foot in the middle below, three tongues.
+fn flame_shape(scale: f32, lift: f32) -> Vec<Vec2> {
+    [
+        [0.0, 0.0],
+        [0.26, 0.03],
+        [0.37, 0.17],
+        [0.33, 0.33],
+        [0.36, 0.46],
+        [0.27, 0.56],
+        [0.25, 0.42],
+        [0.17, 0.5],
+        [0.17, 0.66],
+        [0.08, 0.79],
+        [0.02, 1.0],
+        [-0.03, 0.78],
+        [-0.12, 0.65],
+        [-0.1, 0.5],
+        [-0.19, 0.56],
+        [-0.25, 0.7],
+        [-0.29, 0.5],
+        [-0.35, 0.36],
+        [-0.36, 0.17],
+        [-0.25, 0.03],
+    ]
+    .iter()
+    .map(|[x, y]| Vec2::new(0.5 + x * scale * 1.15, 0.965 - lift - y * scale * 0.93))
+    .collect()
+}
+
 /// A flame as cartoons have it: white heart, yellow body, orange tongues, a red breath round it.
 pub(super) fn flame() -> Picture {
-    let shape = |scale: f32, lift: f32| -> Vec<Vec2> {
-        // The outline, foot in the middle below, three tongues.
-        [
-            [0.0, 0.0],
-            [0.26, 0.03],
-            [0.37, 0.17],
-            [0.33, 0.33],
-            [0.36, 0.46],
-            [0.27, 0.56],
-            [0.25, 0.42],
-            [0.17, 0.5],
-            [0.17, 0.66],
-            [0.08, 0.79],
-            [0.02, 1.0],
-            [-0.03, 0.78],
-            [-0.12, 0.65],
-            [-0.1, 0.5],
-            [-0.19, 0.56],
-            [-0.25, 0.7],
-            [-0.29, 0.5],
-            [-0.35, 0.36],
-            [-0.36, 0.17],
-            [-0.25, 0.03],
-        ]
-        .iter()
-        .map(|[x, y]| Vec2::new(0.5 + x * scale * 1.15, 0.965 - lift - y * scale * 0.93))
-        .collect()
-    };
     let mut c = Canvas::new(256, 256, None);
     for (i, alpha) in [0.06f32, 0.08, 0.1, 0.14].iter().enumerate() {
-        c.fill(&curve(&shape(1.06 - 0.03 * i as f32, 0.0), true), 0xff3a10, *alpha);
+        c.fill(&curve(&flame_shape(1.06 - 0.03 * i as f32, 0.0), true), 0xff3a10, *alpha);
     }
     for (scale, lift, hex, alpha) in [
         (0.94, 0.01, 0xf4541a, 0.92),
@@ -133,11 +134,43 @@ pub(super) fn flame() -> Picture {
         (0.62, 0.02, 0xffc93c, 1.0),
         (0.4, 0.03, 0xfff6c8, 1.0),
     ] {
-        c.fill(&curve(&shape(scale, lift), true), hex, alpha);
+        c.fill(&curve(&flame_shape(scale, lift), true), hex, alpha);
     }
     // Sparks that left the tips.
     for (x, y, r) in [(0.3, 0.24, 0.018), (0.7, 0.34, 0.014), (0.6, 0.12, 0.011)] {
         c.fill(&ellipse(Vec2::new(x, y), Vec2::new(r * 0.8, r * 1.4)), 0xffa030, 1.0);
+    }
+    c.finish()
+}
+
+/// The same flame as heat: 1 in the heart, 0 outside.
+pub(super) fn flame_heat() -> Picture {
+    const STEPS: u32 = 40;
+    let mut c = Canvas::new(256, 256, Some(0x000000));
+    for i in 1..=STEPS {
+        let t = i as f32 / STEPS as f32;
+        let grey = (t.powf(0.8) * 255.0).round() as u32;
+        c.fill(&curve(&flame_shape(1.12 - 0.98 * t, 0.04 * t), true), grey * 0x010101, 1.0);
+    }
+    c.finish()
+}
+
+/// What the amber encloses: a leaf of another time, bubbles, dust. It repeats.
+pub(super) fn amber_inclusions() -> Picture {
+    let mut c = Canvas::new(256, 256, None);
+    let leaf = [Vec2::new(0.34, 0.6), Vec2::new(0.42, 0.48), Vec2::new(0.52, 0.44), Vec2::new(0.46, 0.55)];
+    c.fill(&curve(&leaf, true), 0x6a2c10, 0.9);
+    c.stroke(&curve(&[Vec2::new(0.33, 0.63), Vec2::new(0.52, 0.44)], false), 0x3e1408, 0.9, 0.012);
+    for (x, y, r) in [(0.62f32, 0.5f32, 0.03f32), (0.68, 0.4, 0.018), (0.4, 0.76, 0.022), (0.2, 0.24, 0.016)] {
+        let at = Vec2::new(x, y);
+        c.fill(&ellipse(at, Vec2::splat(r)), 0xffd27a, 0.25);
+        c.stroke(&ellipse(at, Vec2::splat(r)), 0xfff0c8, 0.9, 0.008);
+        c.fill(&ellipse(at - r * 0.35, Vec2::splat(r * 0.22)), 0xffffff, 0.9);
+    }
+    for i in 0..26 {
+        let random = |k| crate::picture::hash(i, k, 95);
+        let at = Vec2::new(0.04 + 0.92 * random(1), 0.04 + 0.92 * random(2));
+        c.fill(&ellipse(at, Vec2::splat(0.003 + 0.006 * random(3))), 0x5a2408, 0.35 + 0.4 * random(4));
     }
     c.finish()
 }

@@ -1,0 +1,76 @@
+//! Spreads light over a chain of pictures, each half as large.
+
+use super::HDR_FORMAT;
+use crate::{Gpu, render::targets, scene::Bloom};
+
+/// Its pipelines.
+#[derive(Debug)]
+pub(crate) struct BloomPass {
+    layout: wgpu::BindGroupLayout,
+    sampler: wgpu::Sampler,
+    down: wgpu::RenderPipeline,
+    up: wgpu::RenderPipeline,
+}
+
+/// Pictures of one size, the largest first, and how each is read.
+#[derive(Debug)]
+pub(crate) struct BloomChain {
+    views: Vec<wgpu::TextureView>,
+    groups: Vec<wgpu::BindGroup>,
+}
+
+/// What the pass reads and writes: the light is the first picture of the chain, and so is the result.
+pub(crate) struct BloomInputs<'a> {
+    pub chain: &'a BloomChain,
+}
+
+impl BloomPass {
+    pub fn new(gpu: &Gpu) -> Self {
+        let module = crate::render::shaders::module(&gpu.device, "bloom");
+        let layout = targets::picture_layout(gpu, "bloom", 1, None);
+        let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some("bloom"),
+            bind_group_layouts: &[Some(&layout)],
+            immediate_size: 0,
+        });
+        let add = wgpu::BlendComponent {
+            src_factor: wgpu::BlendFactor::One,
+            dst_factor: wgpu::BlendFactor::One,
+            operation: wgpu::BlendOperation::Add,
+        };
+        let make = |entry, blend| {
+            targets::picture_pipeline(gpu, "bloom", &pipeline_layout, &module, entry, &[], HDR_FORMAT, blend)
+        };
+        let (down, up) = (make("fs_down", None), make("fs_up", Some(wgpu::BlendState { color: add, alpha: add })));
+        let sampler = targets::linear_sampler(gpu);
+        Self { layout, sampler, down, up }
+    }
+
+    /// A chain below a picture of light, as long as the radius asks for.
+    pub fn chain(&self, gpu: &Gpu, light: &wgpu::TextureView, height: u32, bloom: Bloom) -> BloomChain {
+        // The light stands at half the size; each level doubles the reach of about two texels.
+        let reach_px = (bloom.radius.clamp(0.002, 0.25) * height as f32 * 0.25).max(1.0);
+        let levels = (reach_px.log2().round() as usize).clamp(1, 7);
+        let mut size = [light.texture().width(), light.texture().height()];
+        let mut views = vec![light.clone()];
+        for _ in 0..levels {
+            size = size.map(|s| (s / 2).max(1));
+            views.push(targets::sampled(gpu, "bloom", size, HDR_FORMAT));
+        }
+        let groups =
+            views.iter().map(|v| targets::picture_group(gpu, &self.layout, None, &[v], &self.sampler)).collect();
+        BloomChain { views, groups }
+    }
+
+    /// Halves the light down the chain, then adds it up again.
+    pub fn encode(&self, encoder: &mut wgpu::CommandEncoder, inputs: &BloomInputs<'_>) {
+        let BloomChain { views, groups } = inputs.chain;
+        let last = views.len() - 1;
+        for i in 1..=last {
+            targets::draw_picture(encoder, "bloom down", &views[i], true, &self.down, &groups[i - 1], None);
+        }
+        for i in (0..last).rev() {
+            targets::draw_picture(encoder, "bloom up", &views[i], false, &self.up, &groups[i + 1], None);
+        }
+    }
+}

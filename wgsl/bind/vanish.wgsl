@@ -1,0 +1,18 @@
+// Surfaces that are on their way out: dissolved, or faded pixel by pixel.
+import package::bind::frame::frame;
+import package::bind::material::material;
+import package::lib::dissolve::{dissolve_place, dissolve_time, dither_threshold};
+
+// Place of a point between what is gone (below 0), the glowing border (0..1) and what is whole.
+fn burning(uv: vec2f) -> f32 {
+    return dissolve_place(
+        dissolve_time(uv, material.dissolve_cells), material.dissolve_amount, material.dissolve_border
+    );
+}
+
+// Whether a pixel is left out.
+fn is_dithered_away(pixel: vec2f, position: vec3f) -> bool {
+    let near = material.dither_near;
+    let by_distance = smoothstep(near.x, max(near.y, near.x + 1e-4), distance(frame.eye, position));
+    return material.dither_opacity * by_distance <= dither_threshold(vec2u(pixel));
+}
