@@ -6,7 +6,9 @@ use hikage::{
     color::{LinearRgb, Srgb},
     material::{Alpha, AlphaMode, Base, Material, Outline, OutlineTint, OutlineWidth, Shading, Toon},
     motion::Pose,
-    scene::{Ambient, Influences, Lights, Mesh, MorphTarget, Node, PunctualLight, Scene, Skin, SpotCone, Transform},
+    scene::{
+        Ambient, Image, Influences, Lights, Mesh, MorphTarget, Node, PunctualLight, Scene, Skin, SpotCone, Transform,
+    },
 };
 
 #[path = "support/scene.rs"]
@@ -94,6 +96,62 @@ fn outlines_on_screen_keep_their_width_at_any_distance_field_of_view_and_aspect(
                 })
                 .sum();
             assert!((width - 6.0).abs() < 0.7, "{name} at {distance} m, {fov}°, {size:?}: {width} px, expected 6");
+        }
+    }
+}
+
+/// Width of the green line in the left and the upper half of a picture, pixels.
+fn line_widths(image: &Image) -> [f32; 2] {
+    let (w, h) = (image.width, image.height);
+    let sum = |line: &mut dyn Iterator<Item = [u8; 4]>| {
+        line.map(|p| {
+            let [_, g, b, _] = p.map(|c| Srgb([c; 3]).to_linear().0[0]);
+            (g - b).clamp(0.0, 1.0)
+        })
+        .sum()
+    };
+    [sum(&mut (0..w / 2).map(|x| pixel(image, x, h / 2))), sum(&mut (0..h / 2).map(|y| pixel(image, w / 2, y)))]
+}
+
+/// Lines in both units keep their widths over distances, fields of view and aspects: a ball whose hull is a ball again.
+#[test]
+fn lines_keep_their_widths_over_the_whole_range() {
+    let gpu = gpu();
+    let mut renderer = hikage::Renderer::new(&gpu).expect("a renderer");
+    for fov in [15f32, 45.0, 90.0] {
+        for distance in [0.5f32, 3.0, 20.0] {
+            for size in [[256, 256], [160, 320], [384, 192]] {
+                let half = (fov.to_radians() * 0.5).tan();
+                let least = size[0].min(size[1]) as f32 / size[1] as f32;
+                // The ball spans half of the shorter side.
+                let radius = distance * (half * least * 0.5).atan().sin();
+                let to_px = |radius: f32| {
+                    let angle = (radius / distance).asin();
+                    angle.tan() / half * size[1] as f32 * 0.5
+                };
+                let metres = radius * 0.06;
+                let wide = to_px(radius + metres) - to_px(radius);
+                let px = 5.0;
+                for (width, expected) in [
+                    (OutlineWidth::World { metres }, wide),
+                    (OutlineWidth::Screen { height_ratio: px / size[1] as f32 }, px),
+                ] {
+                    let mut material = grey();
+                    material.outline =
+                        Some(Outline { width, color: [0.0, 1.0, 0.0], lighting_mix: 0.0, ..Outline::default() });
+                    let scene = scene(vec![(sphere(radius, 96, 192), material)]);
+                    let mut view = view(256, distance);
+                    view.size = size;
+                    view.camera.fov_y_rad = fov.to_radians();
+                    view.camera.near = 0.01;
+                    let mut uploaded = renderer.upload(&scene).expect("an upload");
+                    let image = renderer.render(&mut uploaded, &view).expect("a picture");
+                    for found in line_widths(&image) {
+                        let what = format!("{width:?} at {distance} m, {fov}°, {size:?}");
+                        assert!((found - expected).abs() <= 0.5, "{what}: {found} px, expected {expected}");
+                    }
+                }
+            }
         }
     }
 }

@@ -206,6 +206,7 @@ fn structs_match_their_wgsl() {
                 line_width,
                 line_steps,
                 line_parts,
+                fluff_ruffle,
                 rim_width_uv,
                 base_uv,
                 shade_uv,

@@ -24,7 +24,9 @@ pub struct Fluff {
     pub wind_m: f32,
     /// Time after which the wind repeats, seconds. Range 0.1..60. Default: 3.
     pub wind_period_s: f32,
-    /// Share of light at the root. Range 0..1. Default: 0.72.
+    /// How far strands ruffle the border of light: length by which each bends the normal. Range 0..1. Default: 0.3.
+    pub ruffle: f32,
+    /// Share of light at the root. Range 0..1. Default: 0.6.
     pub root_light: f32,
 }
 
@@ -38,7 +40,8 @@ impl Default for Fluff {
             gravity_m: 0.0015,
             wind_m: 0.001,
             wind_period_s: 3.0,
-            root_light: 0.72,
+            ruffle: 0.3,
+            root_light: 0.6,
         }
     }
 }

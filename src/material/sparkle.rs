@@ -13,12 +13,12 @@ pub struct Sparkle {
     pub spacing_px: f32,
     /// How far their normals lean from the surface's, tangent of the angle. Range 0..2. Default: 0.6.
     pub spread: f32,
-    /// Half angle in which a grain shines, radians. Range 0.02..0.5. Default: 0.14.
+    /// Half angle in which a grain shines, radians. Range 0.02..0.5. Default: 0.2.
     pub size_rad: f32,
 }
 
 impl Default for Sparkle {
     fn default() -> Self {
-        Self { color: [1.0; 3], spacing_px: 6.0, spread: 0.6, size_rad: 0.14 }
+        Self { color: [1.0; 3], spacing_px: 6.0, spread: 0.6, size_rad: 0.2 }
     }
 }

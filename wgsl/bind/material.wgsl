@@ -184,6 +184,7 @@ struct Material {
     // Metres, and cosine.
     line_steps: vec2f,
     line_parts: f32,
+    fluff_ruffle: f32,
     rim_width_uv: UvTransform,
     base_uv: UvTransform,
     shade_uv: UvTransform,

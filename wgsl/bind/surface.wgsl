@@ -609,7 +609,8 @@ fn emitted(options: SurfaceOptions, uv: vec4f, burn: f32) -> vec3f {
 // Share of a line at a pixel: eight places round it are compared with it.
 fn inner_line(pixel: vec3f, normal: vec3f) -> f32 {
     let height = f32(textureDimensions(frame_depth).y);
-    let radius = max(material.line_width * height / 1024.0 * 0.5, 0.75);
+    // A quarter of a pixel lies between the border and the middle of a pixel on the line, as a mean.
+    let radius = max(material.line_width * height / 1024.0 * 0.5, 0.5) + 0.25;
     let own = surface_at(vec2i(pixel.xy));
     let here = frame.near / max(pixel.z, 1e-12);
     var different = 0.0;
@@ -622,7 +623,7 @@ fn inner_line(pixel: vec3f, normal: vec3f) -> f32 {
             own.part, other.part, dot(own.normal, other.normal), step, material.line_steps, material.line_parts > 0.5
         );
     }
-    return smoothstep(0.1, 0.45, different / 8.0);
+    return saturate(different * 0.5);
 }
 
 // Share of a rim by the side of a light; `seen` is the normal as it is seen.

@@ -1,18 +1,21 @@
 // A coat of short hair in shells.
 import package::lib::noise::cell_hash;
 
-// Height of the strand at a place, 0..1 of the length: one strand a cell, pointed.
-fn fluff_height(at: vec2f) -> f32 {
-    var height = 0.0;
+// The strand at a place: which way it leans, -1..1, and its height there, 0..1 of the length. One strand a cell, pointed.
+fn fluff_strand(at: vec2f) -> vec4f {
+    var strand = vec4f(0.0);
     let first = vec2i(floor(at - 0.5));
     for (var i = 0; i < 4; i++) {
         let cell = first + vec2i(i % 2, i / 2);
         let random = cell_hash(vec3i(cell, 3));
         let middle = vec2f(cell) + 0.5 + (random.xy - 0.5) * 0.8;
         // Cones of different height that touch at their foot.
-        height = max(height, (0.55 + 0.45 * random.z) * (1.0 - distance(at, middle) / 0.9));
+        let height = (0.55 + 0.45 * random.z) * (1.0 - distance(at, middle) / 0.9);
+        if height > strand.w {
+            strand = vec4f(cell_hash(vec3i(cell, 4)) * 2.0 - 1.0, height);
+        }
     }
-    return height;
+    return strand;
 }
 
 // Opacity of a shell at `level` of the length, 0..1.

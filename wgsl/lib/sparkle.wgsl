@@ -7,7 +7,7 @@ fn sparkle_level(at: vec2f, level: i32, h: vec3f, spread: f32, cos_size: f32) ->
     let random = cell_hash(vec3i(cell, level));
     let lean = cell_hash(vec3i(cell.yx, level + 57)).xy * 2.0 - 1.0;
     let normal = normalize(vec3f(lean * spread, 1.0));
-    let shine = smoothstep(cos_size, 1.0, dot(normal, h));
+    let shine = smoothstep(cos_size, mix(cos_size, 1.0, 0.6), dot(normal, h));
     // A grain is a dot of a third of its cell, somewhere in it.
     let middle = 0.5 + (random.xy - 0.5) * 0.5;
     let dot_share = 1.0 - smoothstep(0.12, 0.3, distance(fract(at), middle));

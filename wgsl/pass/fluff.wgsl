@@ -6,7 +6,7 @@ import package::bind::surface::{CHANNEL_FLUFF, shade_surface};
 import package::bind::varying::{Varying, surface_input, surface_varying};
 import package::bind::vertex::VertexInput;
 import package::lib::color::srgb_from_linear;
-import package::lib::fluff::{fluff_cover, fluff_height, fluff_shells, fluff_wind};
+import package::lib::fluff::{fluff_cover, fluff_shells, fluff_strand, fluff_wind};
 
 override ENCODE_SRGB: bool = false;
 
@@ -46,10 +46,12 @@ fn vs_main(vertex: VertexInput) -> FluffVarying {
 
 @fragment
 fn fs_main(in: FluffVarying) -> @location(0) vec4f {
-    let height = fluff_height(in.uv.xy * material.fluff_density);
-    let cover = fluff_cover(height, in.level, material.fluff_softness);
+    let strand = fluff_strand(in.uv.xy * material.fluff_density);
+    let cover = fluff_cover(strand.w, in.level, material.fluff_softness);
+    // Strands catch the light each in its own way: its border has their shape.
+    let normal = normalize(in.normal) + strand.xyz * material.fluff_ruffle;
     let place = Varying(
-        in.clip_position, in.world_position, in.normal, in.tangent, in.uv, in.color, in.face_light, in.bangs, in.highlight,
+        in.clip_position, in.world_position, normal, in.tangent, in.uv, in.color, in.face_light, in.bangs, in.highlight,
         in.shadow
     );
     let surface = shade_surface(surface_options(), surface_input(place, true));

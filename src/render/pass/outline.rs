@@ -39,6 +39,37 @@ pub(crate) struct OutlineInputs<'a> {
     pub scene: &'a GpuScene,
 }
 
+/// What of a surface counts for its line: what it is made of and its own light and shade, but neither what is drawn on it
+/// nor what glows or falls on it.
+fn of_line(flags: SurfaceFlags) -> SurfaceFlags {
+    SurfaceFlags {
+        face_paint: false,
+        bangs_shadow: false,
+        lid_shadow: false,
+        cast_shadow: false,
+        highlight: false,
+        highlight_second: false,
+        highlight_apart: false,
+        highlight_breakup: false,
+        shaped_highlight: false,
+        shaped_map: false,
+        shaped_brushed: false,
+        sparkle: false,
+        gem: false,
+        gem_inclusions: false,
+        diamond: false,
+        fur_detail: false,
+        fur_color: false,
+        stocking: false,
+        decals: false,
+        depth_rim: false,
+        rim_width: false,
+        rim_shade: false,
+        inner_lines: false,
+        ..flags
+    }
+}
+
 impl OutlinePass {
     pub fn new(gpu: &Gpu, output: Output) -> Self {
         Self { output, module: shaders::module(&gpu.device, "outline"), pipelines: HashMap::new() }
@@ -65,10 +96,10 @@ impl OutlinePass {
         // Black stays black whatever the light.
         let colored = outline.color != [0.0; 3] || driven.colors.contains(&ColorTarget::OutlineColor);
         let mixed = outline.tint.is_none() && outline.lighting_mix > 0.0 && colored;
-        let shaded = mixed || material.alpha.mode != AlphaMode::Opaque;
+        let vanishes = flags.dissolve || flags.dither_fade;
+        let shaded = mixed || vanishes || material.alpha.mode != AlphaMode::Opaque;
         let mut key = OutlineKey {
-            // A line never glows.
-            flags: SurfaceFlags { depth_rim: false, inner_lines: false, ..flags },
+            flags: of_line(flags),
             screen_width,
             width_mask: outline.width_mask.is_some(),
             shaded,

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use glam::{Mat4, Vec3};
 use hikage::View;
-use hikage::bench::{BenchOptions, run as measure};
+use hikage::bench::{self, BenchOptions, run as measure};
 
 use crate::args::{self, LookName, ViewName};
 use crate::failure::Failure;
@@ -18,7 +18,8 @@ use crate::spinner::Spinner;
 The floor is the same meshes with the same samples, drawn unlit with one texture: what no shading can go below.
 Examples:
   hikage bench
-  hikage bench girl.vrm --size 512x512 --instances 20")]
+  hikage bench girl.vrm --size 512x512 --instances 20
+  hikage bench --look anime --view full --each")]
 pub(crate) struct Args {
     /// Model: .vrm, .glb or .gltf [default: the built-in character].
     model: Option<PathBuf>,
@@ -50,6 +51,9 @@ pub(crate) struct Args {
     /// Adapter, by a part of its name (`hikage adapters`).
     #[arg(long, value_name = "NAME")]
     adapter: Option<String>,
+    /// What each look costs: frames with everything against frames without that look; and all of them against none.
+    #[arg(long)]
+    each: bool,
     /// Print JSON.
     #[arg(long)]
     json: bool,
@@ -59,6 +63,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let spinner = Spinner::new();
     spinner.step("loading the model");
     let mut scene = setup::load(args.model.as_deref())?;
+    let plain = args.each.then(|| scene.clone());
     setup::apply_look(args.look.as_ref(), args.model.as_deref(), &mut scene)?;
     spinner.step("opening the adapter");
     let gpu = setup::gpu(args.adapter.as_deref())?;
@@ -68,6 +73,11 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         samples: args.samples,
         frames: args.frames as usize,
     };
+    if let Some(plain) = &plain {
+        let costs = bench::costs(&gpu, &scene, plain, &options)?;
+        drop(spinner);
+        return print_costs(args, gpu.info().name.as_str(), &costs);
+    }
     let report = measure(&gpu, &scene, &options)?;
     drop(spinner);
     if args.json {
@@ -97,6 +107,24 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         report.triangles,
         bytes(report.memory.textures + report.memory.geometry),
     ))
+}
+
+fn print_costs(args: &Args, adapter: &str, costs: &[bench::Cost]) -> Result<(), Failure> {
+    if args.json {
+        return print_json(&costs);
+    }
+    let mut table = Table::new(&["look", "materials", "with, ms", "without, ms", "with / without"]);
+    for cost in costs {
+        let materials = if cost.materials > 0 {
+            cost.materials.to_string()
+        } else {
+            "scene".into()
+        };
+        let ms = |ms: f64| format!("{ms:.1}");
+        table.row([cost.look.clone(), materials, ms(cost.with_ms), ms(cost.without_ms), format!("{:.3}", cost.ratio)]);
+    }
+    let [width, height] = args.size;
+    print(&format!("{adapter}: {width} x {height}, {} frames of each\n{}", args.frames, table.text()))
 }
 
 /// One character at the origin, the others in rows behind it.

@@ -31,8 +31,18 @@ fn review(run_tests: bool) -> Outcome {
         let vulkan = driver::ensure()?;
         // What an older run left must not be taken for a finding of this one.
         let _ = std::fs::remove_dir_all(ACTUAL);
-        let golden =
-            ["test", "--quiet", "--workspace", "--test", "golden", "--test", "golden_character", "--no-fail-fast"];
+        let golden = [
+            "test",
+            "--quiet",
+            "--workspace",
+            "--test",
+            "golden",
+            "--test",
+            "golden_looks",
+            "--test",
+            "golden_character",
+            "--no-fail-fast",
+        ];
         tests = cargo::run(&golden, &vulkan);
     }
     let accepted = names_in(EXPECTED, ".png")?;

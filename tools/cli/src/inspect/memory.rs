@@ -32,6 +32,9 @@ pub(super) fn texture_uses(material: &Material) -> Vec<(&'static str, usize, Use
     add("face paint", material.authored.face_paint.map(|t| t.texture), Use::Linear);
     add("detail normal", material.authored.detail_normal.map(|t| t.texture), Use::Linear);
     add("part ids", material.authored.part_ids.map(|t| t.texture), Use::Linear);
+    add("highlight shape", material.authored.highlight_shape.map(|t| t.texture), Use::Linear);
+    add("inclusions", material.authored.inclusions.map(|t| t.texture), Use::Srgb);
+    add("heat", material.authored.heat.map(|t| t.texture), Use::Linear);
     if let Some([warm, cool]) = material.authored.ramps {
         add("warm ramp", Some(warm.texture), Use::Srgb);
         add("cool ramp", Some(cool.texture), Use::Srgb);

@@ -2,6 +2,10 @@
 //!
 //! Frames and floor frames take turns, so that a machine that slows down slows both; the ratio of medians is what counts.
 
+mod costs;
+
+pub use costs::{Cost, costs};
+
 use std::time::{Duration, Instant};
 
 use serde::Serialize;

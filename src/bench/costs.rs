@@ -1,0 +1,109 @@
+//! What each look of a scene costs: frames with everything and frames without that look take turns.
+
+use std::time::Instant;
+
+use serde::Serialize;
+
+use super::{BenchOptions, Stage, milliseconds, spread};
+use crate::{Gpu, Result, material::Material, scene::Scene};
+
+/// Cost of one look.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Cost {
+    /// The section of a look file that it is: `depth_rim`, `post`.
+    pub look: String,
+    /// Materials that have it; 0 for a section of the scene.
+    pub materials: usize,
+    /// Median of a frame with everything, milliseconds.
+    pub with_ms: f64,
+    /// Median of a frame with everything else, milliseconds.
+    pub without_ms: f64,
+    /// Their ratio.
+    pub ratio: f64,
+}
+
+/// Takes a section off a material; whether it was there.
+type Off = fn(&mut Material) -> bool;
+
+/// Sections of materials that cost something, in the order of shading.
+const MATERIAL_LOOKS: &[(&str, Off)] = &[
+    ("face_shadow", |m| m.face_shadow.take().is_some()),
+    ("transition", |m| m.transition.take().is_some()),
+    ("shade_ramp", |m| m.shade_ramp.take().is_some()),
+    ("light_response", |m| m.light_response.take().is_some()),
+    ("fur_detail", |m| m.fur_detail.take().is_some()),
+    ("face_paint", |m| m.face_paint.take().is_some()),
+    ("highlight", |m| m.highlight.take().is_some()),
+    ("shaped_highlight", |m| m.shaped_highlight.take().is_some()),
+    ("sparkle", |m| m.sparkle.take().is_some()),
+    ("gem", |m| m.gem.take().is_some()),
+    ("diamond", |m| m.diamond.take().is_some()),
+    ("fire", |m| m.fire.take().is_some()),
+    ("fluff", |m| m.fluff.take().is_some()),
+    ("stocking", |m| m.stocking.take().is_some()),
+    ("decals", |m| m.decals.take().is_some()),
+    ("dissolve", |m| m.dissolve.take().is_some()),
+    ("dither_fade", |m| m.dither_fade.take().is_some()),
+    ("depth_rim", |m| m.depth_rim.take().is_some()),
+    ("outline", |m| m.outline.take().is_some()),
+    ("outline tint", |m| m.outline.as_mut().is_some_and(|o| o.tint.take().is_some())),
+    ("inner_lines", |m| m.inner_lines.take().is_some()),
+];
+
+/// Takes a section off a scene; whether it was there.
+type SceneOff = fn(&mut Scene) -> bool;
+
+const SCENE_LOOKS: &[(&str, SceneOff)] = &[
+    ("bangs", |s| s.bangs.take().is_some()),
+    ("self_shadow", |s| s.self_shadow.take().is_some()),
+    ("eyes_through", |s| s.eyes_through.take().is_some()),
+    ("post", |s| s.post.take().is_some()),
+];
+
+/// Times every look that a scene has, after all of them together against the scene without looks (`plain`).
+///
+/// # Errors
+/// Those of [`run`](super::run).
+pub fn costs(gpu: &Gpu, scene: &Scene, plain: &Scene, options: &BenchOptions) -> Result<Vec<Cost>> {
+    let mut with = Stage::new(gpu, scene, options)?;
+    let mut list = vec![cost(gpu, options, &mut with, plain, "all", scene.materials.len())?];
+    for (look, off) in MATERIAL_LOOKS {
+        let mut other = scene.clone();
+        let materials = other.materials.iter_mut().map(off).filter(|had| *had).count();
+        if materials > 0 {
+            list.push(cost(gpu, options, &mut with, &other, look, materials)?);
+        }
+    }
+    for (look, off) in SCENE_LOOKS {
+        let mut other = scene.clone();
+        if off(&mut other) {
+            list.push(cost(gpu, options, &mut with, &other, look, 0)?);
+        }
+    }
+    Ok(list)
+}
+
+fn cost(
+    gpu: &Gpu,
+    options: &BenchOptions,
+    with: &mut Stage<'_>,
+    other: &Scene,
+    look: &str,
+    materials: usize,
+) -> Result<Cost> {
+    let mut without = Stage::new(gpu, other, options)?;
+    let (mut all, mut rest) = (Vec::new(), Vec::new());
+    // The first ones warm up.
+    for frame in 0..=options.frames {
+        let start = Instant::now();
+        with.frame()?;
+        let middle = Instant::now();
+        without.frame()?;
+        if frame > 0 {
+            all.push((middle - start).as_secs_f64() * 1e3);
+            rest.push(milliseconds(middle));
+        }
+    }
+    let (with_ms, without_ms) = (spread(all).median, spread(rest).median);
+    Ok(Cost { look: look.to_owned(), materials, with_ms, without_ms, ratio: with_ms / without_ms.max(1e-9) })
+}
