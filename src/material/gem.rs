@@ -63,7 +63,7 @@ impl Gem {
     pub const fn ruby() -> Self {
         Self {
             ior: 1.76,
-            color: [0.62, 0.01, 0.06],
+            color: [0.86, 0.015, 0.1],
             cloudiness: 0.1,
             caustic: 1.8,
             caustic_focus: 8.0,

@@ -97,7 +97,7 @@ impl Renderer {
                 outline: self.outline.pipeline(&self.gpu, &self.layouts, flags, material, &driven[part.material]),
                 fluff: (material.fluff.is_some() && !blend && !flags.unlit).then(|| {
                     // A coat has no contour of its own, and its holes are strands.
-                    let flags = SurfaceFlags { depth_rim: false, alpha_mask: false, ..flags };
+                    let flags = SurfaceFlags { depth_rim: false, inner_lines: false, alpha_mask: false, ..flags };
                     self.fluff.pipeline(&self.gpu, &self.layouts, flags)
                 }),
                 glow: (blooms && material.glow.is_some())

@@ -35,7 +35,7 @@ fn gem_surface(p: StonePoint, has_inclusions: bool) -> Stone {
     let r = refract(-p.view, p.normal, 1.0 / material.gem_ior);
     let inside = vec3f(dot(r, p.tangent), dot(r, p.bitangent), dot(r, p.normal));
     let glow = gathered(far_normal(p.normal, r), frame.to_light, material.gem_focus);
-    let around = p.ambient * 0.8 + p.light * 0.2;
+    let around = p.ambient * 0.8 + p.light * 0.28;
     let through = (around + p.light * material.gem_caustic * glow) * absorbed(material.gem_color, inside, 1.0);
     // Scattered light comes from a little below the surface, and from around the border of light.
     let wrapped = saturate(dot(p.normal, frame.to_light) * 0.6 + 0.4);
@@ -55,7 +55,7 @@ fn gem_surface(p: StonePoint, has_inclusions: bool) -> Stone {
         }
     }
     let mirrored = fresnel(saturate(dot(p.normal, p.view)), material.gem_ior) * material.gem_polish;
-    let sky = studio_light(reflect(-p.view, p.normal), p, 0.0, 6.0);
+    let sky = studio_light(reflect(-p.view, p.normal), p, 0.0, 12.0);
     return Stone(mix(body, sky, mirrored), vec3f(glow, enclosed, mirrored));
 }
 

@@ -623,7 +623,8 @@ fn inner_line(pixel: vec3f, normal: vec3f) -> f32 {
             own.part, other.part, dot(own.normal, other.normal), step, material.line_steps, material.line_parts > 0.5
         );
     }
-    return saturate(different * 0.5);
+    // A line of less than a pixel is as much fainter.
+    return saturate(different * 0.5) * saturate(material.line_width * height / 1024.0);
 }
 
 // Share of a rim by the side of a light; `seen` is the normal as it is seen.

@@ -34,7 +34,9 @@ fn gathered(n: vec3f, to_light: vec3f, focus: f32) -> f32 {
     return pow(saturate(dot(n, -to_light)), focus);
 }
 
-// Normal where a ray along r leaves the ball that has normal n where it enters.
+// Where a ray along r leaves a body that is round where it enters with normal n: the normal there, turned towards the side on
+// which it entered, since light that is scattered once makes the whole side away from a light shine.
 fn far_normal(n: vec3f, r: vec3f) -> vec3f {
-    return n - 2.0 * dot(n, r) * r;
+    let far = n - 2.0 * dot(n, r) * r;
+    return normalize(far + 0.75 * n);
 }

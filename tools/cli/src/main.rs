@@ -7,6 +7,7 @@ mod bench;
 mod compare_references;
 mod deadline;
 mod failure;
+mod gallery;
 mod inspect;
 mod look;
 mod output;
@@ -55,6 +56,8 @@ enum Command {
     Render(render::Args),
     /// Draw a character from all sides and with every expression, on one sheet.
     Sheet(sheet::Args),
+    /// Draw every look on the built-in character: contact sheets and a page that explains them.
+    Gallery(gallery::Args),
     /// Write a look file with every number of the anime look, to start from. Needs no GPU.
     Look(look::Args),
     /// Author threshold maps of painted face shadows.
@@ -108,6 +111,7 @@ fn run(command: Command) -> Result<(), Failure> {
     match command {
         Command::Render(args) => render::run(&args),
         Command::Sheet(args) => sheet::run(&args),
+        Command::Gallery(args) => gallery::run(&args),
         Command::Look(args) => look::run(&args),
         Command::Sdf(args) => sdf::run(&args),
         Command::Texture(args) => texture::run(&args),

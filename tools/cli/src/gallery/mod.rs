@@ -1,0 +1,171 @@
+//! `hikage gallery`: a contact sheet for every look on the built-in character, with a page that explains them.
+
+mod page;
+mod sheets;
+
+use std::path::PathBuf;
+
+use glam::{Quat, Vec3};
+use hikage::motion::Stance;
+use hikage::picture::{encode_png, write_atomic};
+use hikage::scene::{Framing, HumanBone, Image, Scene};
+use hikage::{Background, Gpu, GpuScene, Output, Renderer, View};
+
+use crate::args::LookName;
+use crate::failure::Failure;
+use crate::sheet::{BEHIND, GAP, LINE, paper, place, write};
+use crate::spinner::Spinner;
+use crate::{deadline, setup};
+use sheets::{Camera, Panel, Row, Sheet};
+
+/// Arguments of `hikage gallery`.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Example:
+  mkdir gallery && hikage gallery -o gallery")]
+pub(crate) struct Args {
+    /// Folder for the sheets and index.html; it must exist.
+    #[arg(short, long, value_name = "DIR")]
+    output: PathBuf,
+    /// Only these sheets, by name: metal,fire.
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
+    only: Vec<String>,
+    /// Height of one panel, pixels.
+    #[arg(long, value_name = "PIXELS", default_value_t = 256, value_parser = clap::value_parser!(u32).range(64..=1024))]
+    panel: u32,
+    /// Adapter, by a part of its name (`hikage adapters`).
+    #[arg(long, value_name = "NAME")]
+    adapter: Option<String>,
+}
+
+pub(crate) fn run(args: &Args) -> Result<(), Failure> {
+    if !args.output.is_dir() {
+        return Err(Failure::input(format!("{}: is not a folder; make it first", args.output.display())));
+    }
+    let mut sheets = sheets::all();
+    if let Some(unknown) = args.only.iter().find(|name| !sheets.iter().any(|s| s.name == name.as_str())) {
+        let names: Vec<&str> = sheets.iter().map(|s| s.name).collect();
+        return Err(Failure::input(format!("--only: no sheet is named {unknown:?}; there are {}", names.join(", "))));
+    }
+    sheets.retain(|s| args.only.is_empty() || args.only.iter().any(|name| name == s.name));
+
+    let spinner = Spinner::new();
+    spinner.step("loading the character");
+    let plain = setup::load(None)?;
+    let mut scene = plain.clone();
+    setup::apply_look(Some(&LookName::Anime), None, &mut scene)?;
+    let gpu = setup::gpu(args.adapter.as_deref())?;
+    let mut renderer = Renderer::with_output(&gpu, Output::default())?;
+    for (i, sheet) in sheets.iter().enumerate() {
+        spinner.step(format!("{} of {}: {}", i + 1, sheets.len(), sheet.title));
+        let picture = draw(&gpu, &mut renderer, [&plain, &scene], sheet, args.panel)?;
+        write_atomic(args.output.join(format!("{}.png", sheet.name)), &encode_png(&picture)?)?;
+    }
+    drop(spinner);
+    deadline::stop();
+    write_atomic(args.output.join("index.html"), page::html(&sheets).as_bytes())?;
+    Ok(())
+}
+
+/// Draws a sheet; every row has its own scene.
+fn draw(
+    gpu: &Gpu,
+    renderer: &mut Renderer,
+    [plain, looked]: [&Scene; 2],
+    sheet: &Sheet,
+    panel: u32,
+) -> Result<Image, Failure> {
+    let width = |p: &Panel| (panel as f32 * p.aspect).round() as u32;
+    let row_width = |r: &Row| r.panels.iter().map(|p| width(p) + GAP).sum::<u32>() + GAP;
+    let height = GAP + sheet.rows.len() as u32 * (panel + LINE + GAP);
+    let mut picture = paper(sheet.rows.iter().map(row_width).max().unwrap_or(GAP), height);
+    let mut top = GAP;
+    for row in &sheet.rows {
+        let mut scene = if row.is_plain { plain.clone() } else { looked.clone() };
+        (row.change)(&mut scene);
+        let mut uploaded = renderer.upload(&scene)?;
+        let mut left = GAP;
+        for shown in &row.panels {
+            let size = [width(shown), panel];
+            let drawn = draw_panel(gpu, renderer, &mut uploaded, &scene, shown, size)?;
+            place(&mut picture, &drawn, left, top);
+            write(&mut picture, &shown.caption, left, top + panel + 4);
+            left += size[0] + GAP;
+        }
+        top += panel + LINE + GAP;
+    }
+    Ok(picture)
+}
+
+fn draw_panel(
+    gpu: &Gpu,
+    renderer: &mut Renderer,
+    uploaded: &mut GpuScene,
+    scene: &Scene,
+    panel: &Panel,
+    size: [u32; 2],
+) -> Result<Image, Failure> {
+    let expressions: Vec<(String, f32)> = panel.expression.iter().map(|e| ((*e).to_owned(), 1.0)).collect();
+    let stance = match panel.camera {
+        Camera::Framed(..) => panel.stance,
+        Camera::Close { .. } => Stance::Rest,
+    };
+    let mut pose = setup::pose(scene, stance, &expressions)?;
+    let mut view = match panel.camera {
+        Camera::Framed(framing, yaw) => View::framed_pose(scene, &pose, framing, yaw.to_radians(), size),
+        Camera::Close { part, yaw, pitch } => close(scene, part, [yaw, pitch], size),
+    };
+    if let Some(head) = scene.bone_node(HumanBone::Head) {
+        pose.locals[head].rotation *= Quat::from_rotation_y(panel.head_deg.to_radians());
+    }
+    uploaded.set_pose(gpu, scene, &pose);
+    let [yaw, pitch] = panel.light_deg.map(f32::to_radians);
+    let lights = &mut view.lights;
+    lights.directional.to_light = Vec3::new(yaw.sin() * pitch.cos(), pitch.sin(), yaw.cos() * pitch.cos());
+    lights.coolness = panel.coolness;
+    lights.punctual.extend(panel.lamp);
+    view.time_s = panel.time_s;
+    view.background = Background::Color(panel.background.unwrap_or(BEHIND));
+    Ok(renderer.render(uploaded, &view)?)
+}
+
+/// A view that a part of the character at rest fills: what of it lies on her left, so that pairs show one of both.
+fn close(scene: &Scene, part: &str, [yaw, pitch]: [f32; 2], size: [u32; 2]) -> View {
+    let is_named = |index: usize| scene.materials.get(index).is_some_and(|m| m.name == part);
+    let of_mesh = |mesh: &'_ hikage::scene::Mesh| mesh.name == part;
+    let points =
+        scene.meshes.iter().flat_map(|m| m.primitives.iter().filter(move |p| of_mesh(m) || is_named(p.material)));
+    let left = points.flat_map(|p| &p.positions).map(|p| Vec3::from_array(*p)).filter(|p| p.x > -0.02);
+    let (low, high) = left.fold((Vec3::MAX, Vec3::MIN), |(l, h), p| (l.min(p), h.max(p)));
+    let mut view = View { size, ..View::framed(scene, Framing::Face, 0.0, size) };
+    let (yaw, pitch) = (yaw.to_radians(), pitch.to_radians());
+    let away = Vec3::new(yaw.sin() * pitch.cos(), pitch.sin(), yaw.cos() * pitch.cos());
+    let camera = &mut view.camera;
+    camera.target = (low + high) * 0.5;
+    camera.eye = camera.target + away * 0.6;
+    camera.near = 0.02;
+    let aspect = size[0] as f32 / size[1] as f32;
+    let extent = (high - low).max(Vec3::ZERO);
+    let half = 0.58 * extent.y.max(extent.x.hypot(extent.z) * 0.9 / aspect);
+    camera.fov_y_rad = 2.0 * (half / 0.6).atan();
+    view
+}
+
+/// Her face, at ease.
+impl Default for Panel {
+    fn default() -> Self {
+        Self {
+            caption: String::new(),
+            camera: Camera::Framed(Framing::Face, 0.0),
+            aspect: 1.0,
+            stance: Stance::Relaxed,
+            expression: None,
+            light_deg: [-30.0, 30.0],
+            lamp: None,
+            head_deg: 0.0,
+            coolness: None,
+            time_s: 0.0,
+            background: None,
+        }
+    }
+}
