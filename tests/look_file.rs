@@ -258,3 +258,40 @@ fn wide_maps_keep_their_bits() {
     let green: Vec<u16> = map.front[0].iter().map(|t| t[1]).collect();
     assert_eq!(green, [7, 1007, 2007, 3007]);
 }
+
+#[test]
+fn presets_stand_for_their_numbers_and_may_be_changed() {
+    use hikage::material::{Fire, Gem};
+    use hikage::scene::ToneCurve;
+    let mut scene = doll();
+    let text = r#"
+        base = "plain"
+        [post]
+        tone = "filmic"
+        bloom = { strength = 0.9 }
+        [material.Face]
+        gem = "ruby"
+        [material.Hair]
+        gem = { preset = "jade", depth_mm = 4 }
+        [material.Dress]
+        fire = "blue"
+        shaped_highlight = { preset = "square", rotate_deg = 90 }
+    "#;
+    apply(text, &mut scene).expect("a look");
+    let of = |i: usize| &scene.materials[i];
+    assert_eq!(of(0).gem, Some(Gem::ruby()));
+    assert_eq!(of(1).gem, Some(Gem { depth_m: 0.004, ..Gem::jade() }));
+    assert_eq!(of(2).fire, Some(Fire::blue()));
+    let shape = of(2).shaped_highlight.expect("a shape");
+    assert!(shape.square == 1.0 && (shape.rotate_rad - std::f32::consts::FRAC_PI_2).abs() < 1e-6, "{shape:?}");
+    let post = scene.post.expect("post");
+    assert!(post.tone == ToneCurve::Filmic && post.bloom.expect("bloom").strength == 0.9);
+    for (text, words) in [
+        ("[material.Face]\ngem = \"rubby\"", &["preset of gem", "rubby", "ruby"][..]),
+        ("[material.Face]\ngem = { preset = 3 }", &["gem.preset"]),
+        ("[post]\ntone = \"film\"", &["post", "filmic"]),
+    ] {
+        let error = apply(text, &mut doll()).expect_err("an error");
+        assert!(words.iter().all(|w| error.contains(w)), "{error}");
+    }
+}

@@ -24,7 +24,11 @@ struct Sweep {
 impl Sweep {
     fn new() -> Self {
         let gpu = gpu();
-        let scene = support::anime_heroine();
+        let mut scene = support::anime_heroine();
+        // Facets are there to flash.
+        for material in &mut scene.materials {
+            (material.diamond, material.sparkle) = (None, None);
+        }
         let mut renderer = Renderer::new(&gpu).expect("a renderer");
         let uploaded = renderer.upload(&scene).expect("an upload");
         let mut view = View::framed(&scene, Framing::Face, 0.0, [SIDE * FINER; 2]);
@@ -78,7 +82,7 @@ fn light_changes_no_pixel_by_much_in_a_degree() {
         last = Some((degrees, now));
     }
     println!("light: at most {largest}/255 a pixel, {mean:.2}/255 on average, in 1 degree");
-    assert!(largest <= 52 && mean < 0.5, "{largest}/255 a pixel, {mean}/255 on average in 1 degree");
+    assert!(largest <= 48 && mean < 0.5, "{largest}/255 a pixel, {mean}/255 on average in 1 degree");
 }
 
 /// Steps of 1 degree of the head move edges by less than a pixel: what changes more than an edge does would pop.

@@ -404,8 +404,12 @@ fn shade_surface(options: SurfaceOptions, in: SurfaceInput) -> vec4f {
     }
     var direct: vec3f;
     if options.shade_ramp {
-        soft *= 1.0 - received;
-        direct = ramp_color(options, uv, base.rgb, shade, soft) * light;
+        var ramped = ramp_color(options, uv, base.rgb, shade, soft);
+        if options.bangs_shadow {
+            // By its share and not along the ramp, whose terminator is much narrower than the shadow's soft edge.
+            ramped = mix(ramped, ramp_color(options, uv, base.rgb, shade, 0.0), received);
+        }
+        direct = ramped * light;
     } else {
         direct = mtoon_direct(base.rgb * tint, shade, shading, light)
             * mix(vec3f(1.0), material.bangs_color, received);

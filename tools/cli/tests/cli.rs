@@ -253,6 +253,34 @@ fn a_sheet_shows_any_model_and_the_built_in_one_without_a_file() {
 }
 
 #[test]
+fn a_gallery_is_a_page_of_sheets() {
+    let dir = folder("gallery");
+    let error = fails(&dir, &["gallery", "-o", "none"], 1);
+    assert!(error.contains("none") && error.contains("folder"), "{error}");
+    let error = fails(&dir, &["gallery", "-o", ".", "--only", "metal,sheep"], 1);
+    assert!(error.contains("sheep") && error.contains("metal"), "{error}");
+    succeeds(&dir, &["gallery", "-o", ".", "--only", "diamond", "--panel", "64"]);
+    assert_eq!(files(&dir), ["diamond.png", "index.html", "triangle.gltf"]);
+    let page = fs::read_to_string(dir.join("index.html")).expect("a page");
+    assert!(page.contains("src=\"diamond.png\"") && page.contains("</html>"), "{page}");
+    let sheet = hikage::picture::read_png(dir.join("diamond.png")).expect("a sheet");
+    assert!(sheet.width > 8 * 64 && sheet.height > 64, "{} x {}", sheet.width, sheet.height);
+}
+
+#[test]
+fn bench_tells_what_each_look_costs() {
+    let dir = folder("bench-each");
+    let args = ["bench", "triangle.gltf", "--look", "anime", "--each", "--json", "--size", "32x32", "--frames", "1"];
+    let costs: serde_json::Value = serde_json::from_str(&succeeds(&dir, &args)).expect("JSON");
+    let costs = costs.as_array().expect("a list");
+    assert_eq!(costs[0]["look"], "all");
+    for look in ["outline", "self_shadow"] {
+        let cost = costs.iter().find(|c| c["look"] == look).unwrap_or_else(|| panic!("{look} is missing"));
+        assert!(cost["ratio"].as_f64().is_some_and(|r| r > 0.0), "{cost}");
+    }
+}
+
+#[test]
 fn an_unknown_expression_is_status_1_and_leaves_the_old_picture() {
     let dir = folder("expression");
     fs::write(dir.join("out.png"), b"old").expect("file");
