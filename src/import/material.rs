@@ -97,13 +97,17 @@ fn read_common(json: &Json, material: &mut Material, textures: &mut Textures, wa
         authored.highlight_shape = textures.info(&maps, "highlightShape", warnings)?;
         authored.inclusions = textures.info(&maps, "inclusions", warnings)?;
         authored.heat = textures.info(&maps, "heat", warnings)?;
-        authored.substance = maps.str("substance")?.and_then(Substance::from_name);
+        authored.substance = Substance::from_name(maps.text("substance"));
         let ramps = [textures.info(&maps, "rampWarm", warnings)?, textures.info(&maps, "rampCool", warnings)?];
         authored.ramps = match ramps {
             [Some(warm), Some(cool)] => Some([warm, cool]),
             [one, other] => one.or(other).map(|ramp| [ramp; 2]),
         };
         let rows = maps.f32_or("rampRows", 1.0).clamp(1.0, 256.0) as u32;
+        let row_of = |value: &Json| value.as_f32().ok().map(|row| row.max(0.0) as u32);
+        for (row, found) in authored.part_rows.iter_mut().zip(maps.list("partRows")) {
+            *row = row_of(&found).map(|r| r.min(rows.saturating_sub(1)));
+        }
         authored.ramp_rows = [rows, (maps.f32_or("rampRow", 0.0).max(0.0) as u32).min(rows.saturating_sub(1))];
     }
 

@@ -178,8 +178,11 @@ fn painted_shade(scene: &mut Scene) {
     let skin: BTreeSet<usize> =
         [Role::Face, Role::Skin, Role::Mouth].into_iter().flat_map(|role| materials_of(scene, role)).collect();
     for (index, material) in scene.materials.iter_mut().enumerate().filter(|(i, _)| !eyes.contains(i)) {
-        let Authored { ramps, ramp_rows: [rows, row], detail_normal, .. } = material.authored;
-        let maps = ramps.map(|[warm, cool]| RampMaps { warm, cool, rows, row, ..RampMaps::default() });
+        let Authored { ramps, ramp_rows: [rows, row], part_ids, part_rows, detail_normal, .. } = material.authored;
+        let part_rows = part_rows.map(|r| r.unwrap_or(row));
+        // Where no part has a row of its own, the map need not be read.
+        let part_ids = part_ids.filter(|_| part_rows.iter().any(|r| *r != row));
+        let maps = ramps.map(|[warm, cool]| RampMaps { warm, cool, rows, row, part_ids, part_rows });
         // On skin the terminator is a thin blush.
         let width = if skin.contains(&index) {
             0.18
@@ -216,9 +219,13 @@ fn substances(scene: &mut Scene) {
             }
             Substance::Fire => {
                 material.fire = heat.map(|heat| Fire { heat, ..Fire::default() });
-                material.glow = Some(Glow::default());
+                material.glow = Some(Glow { emission: 0.6, ..Glow::default() });
             }
-            Substance::Fluff => material.fluff = Some(Fluff::default()),
+            Substance::Fluff => {
+                material.fluff = Some(Fluff::default());
+                // Its contour is soft.
+                material.outline = None;
+            }
             // The file paints the knit itself; it gets darker where it is seen aslant.
             Substance::Stocking => {
                 material.stocking = Some(Stocking { color: [0.012, 0.01, 0.022], cover: 0.12 });

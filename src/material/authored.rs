@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::TextureRef;
+use super::{MAX_PARTS, TextureRef};
 
 /// Textures that glTF and MToon have no place for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -20,6 +20,8 @@ pub struct Authored {
     pub ramp_rows: [u32; 2],
     /// Numbers of parts (`partId`). Default: none.
     pub part_ids: Option<TextureRef>,
+    /// Row of the ramps of each part, from part 1 on (`partRows`); parts beyond have the material's. Default: none.
+    pub part_rows: [Option<u32>; MAX_PARTS],
     /// Shape of a highlight (`highlightShape`). Default: none.
     pub highlight_shape: Option<TextureRef>,
     /// What a stone encloses (`inclusions`). Default: none.

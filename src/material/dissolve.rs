@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Noise that eats a surface away, with a glowing border; what is gone casts no shadow.
+/// Noise that eats a surface away, with a glowing border; what is gone casts no shadow. Lines round
+/// the shape grow thin and have gone at an amount of 0.1.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Dissolve {

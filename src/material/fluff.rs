@@ -6,11 +6,11 @@ use serde::{Deserialize, Serialize};
 pub const MAX_SHELLS: u32 = 24;
 
 /// Shells round the surface, each with the strands that reach so far. Fewer are drawn where they would lie closer than a
-/// pixel and a half. Light and colour are those of the surface; strands grow darker towards the root.
+/// pixel. Light and colour are those of the surface; strands grow darker towards the root.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Fluff {
-    /// Most shells. Range 8..24. Default: 16.
+    /// Most shells. Range 8..24. Default: 24.
     pub shells: u32,
     /// Length of the strands, metres. Range 0.001..0.1. Default: 0.008.
     pub length_m: f32,
@@ -33,7 +33,7 @@ pub struct Fluff {
 impl Default for Fluff {
     fn default() -> Self {
         Self {
-            shells: 16,
+            shells: 24,
             length_m: 0.008,
             density: 160.0,
             softness: 0.35,

@@ -42,7 +42,7 @@ pub enum ToneCurve {
     /// It is cut: colours are exactly those that are painted.
     #[default]
     None,
-    /// Rolled off above 0.75 by the brightest channel, so that the hue stays.
+    /// Rolled off above 0.75, half by the brightest channel and half each by itself: hues stay until they are nearly white.
     Filmic,
     /// Khronos PBR Neutral: compressed above 0.8, then faded to white.
     Neutral,

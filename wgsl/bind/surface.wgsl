@@ -315,6 +315,9 @@ fn shade_surface(options: SurfaceOptions, in: SurfaceInput) -> vec4f {
         if options.fur_color {
             let at = texture_uv(options, uv, material.detail_color_uv);
             detail = textureSample(detail_color_texture, detail_sampler, at).rgb;
+            if options.vertex_color {
+                detail *= in.color.rgb;
+            }
         } else if options.base_texture {
             let at = texture_uv(options, uv, material.base_uv);
             flat_color = textureSampleBias(base_texture, base_sampler, at, material.fur_blur).rgb;

@@ -3,12 +3,15 @@
 const TONE_FILMIC: u32 = 1u;
 const TONE_NEUTRAL: u32 = 2u;
 
-// The brightest channel rolls off above 0.75 towards 1; the others keep their share of it.
+// Rolled off above 0.75 towards 1: half by the brightest channel, which keeps the hue, half each channel by itself, which
+// lets what is very bright turn to white.
 fn tone_filmic(color: vec3f) -> vec3f {
     let start = 0.75;
     let peak = max(color.r, max(color.g, color.b));
-    let rolled = 1.0 - (1.0 - start) * exp(-(peak - start) / (1.0 - start));
-    return select(color * (rolled / max(peak, 1e-6)), color, peak <= start);
+    let rolled = 1.0 - (1.0 - start) * exp(-(max(vec4f(color, peak), vec4f(start)) - start) / (1.0 - start));
+    let by_hue = color * (rolled.w / max(peak, 1e-6));
+    let each = select(rolled.xyz, color, color <= vec3f(start));
+    return select(mix(by_hue, each, 0.5), color, peak <= start);
 }
 
 // Khronos PBR Neutral without its offset for Fresnel's 4 %: that would change dark painted colours.

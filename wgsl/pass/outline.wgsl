@@ -53,6 +53,9 @@ fn vs_main(v: VertexInput) -> Varying {
     if VERTEX_WIDTH {
         width *= v.color.r;
     }
+    if surface_options().dissolve {
+        width *= 1.0 - saturate(material.dissolve_amount * 10.0);
+    }
     let normal = world_direction(v, v.frame.z);
     if SCREEN_WIDTH {
         let normal_clip = (frame.clip_from_world * vec4f(normal, 0.0)).xy;
@@ -76,6 +79,10 @@ fn vs_main(v: VertexInput) -> Varying {
 @fragment
 fn fs_main(in: Varying) -> @location(0) vec4f {
     var surface = vec4f(1.0);
+    if surface_options().dissolve && material.dissolve_amount > 0.1 {
+        // Through holes the hull of the far side would be seen.
+        discard;
+    }
     if OUTLINE_SHADED {
         surface = shade_surface(surface_options(), surface_input(in, true));
     }

@@ -27,7 +27,7 @@ pub(crate) struct FluffInputs<'a> {
 /// Shells of a coat: `fluff_shells` of `wgsl/lib/fluff.wgsl`.
 fn shells(fluff: &Fluff, px_per_m: f32) -> u32 {
     let most = fluff.shells.clamp(1, MAX_SHELLS);
-    ((fluff.length_m * px_per_m / 1.5).ceil() as u32).clamp(most.min(4), most)
+    ((fluff.length_m * px_per_m).ceil() as u32).clamp(most.min(4), most)
 }
 
 impl FluffPass {

@@ -273,6 +273,10 @@ fn material(m: &Material, textures: &BTreeMap<&str, usize>) -> Value {
         let mut maps: Map<String, Value> = m.extras.iter().map(|(usage, t)| ((*usage).to_owned(), info(t))).collect();
         maps.insert("rampRow".to_owned(), json!(m.ramp_row));
         maps.insert("rampRows".to_owned(), json!(crate::ramp::row_count()));
+        if !m.part_ramps.is_empty() {
+            let rows: Vec<usize> = m.part_ramps.iter().map(|name| crate::ramp::row(name)).collect();
+            maps.insert("partRows".to_owned(), json!(rows));
+        }
         maps.extend(m.substance.map(|s| ("substance".to_owned(), json!(s))));
         value["extras"] = json!({ "hikage": maps });
     }

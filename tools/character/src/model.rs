@@ -97,6 +97,8 @@ pub struct Material {
     pub extras: BTreeMap<&'static str, &'static str>,
     /// Row of the ramps, from above.
     pub ramp_row: usize,
+    /// Materials whose row of the ramps each part of its `partId` has, from part 1 on.
+    pub part_ramps: &'static [&'static str],
     /// What it is, where Hikage's looks treat it in their own way: `metal`, `amber`, `diamond`, `fire`, `fluff`,
     /// `stocking`.
     pub substance: Option<&'static str>,
@@ -125,6 +127,7 @@ impl Default for Material {
             scroll: [0.0; 2],
             extras: BTreeMap::new(),
             ramp_row: 0,
+            part_ramps: &[],
             substance: None,
         }
     }

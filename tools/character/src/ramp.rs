@@ -25,7 +25,7 @@ pub(crate) const fn row_count() -> usize {
 }
 
 /// Row of a material; the longest matching name wins.
-fn row(name: &str) -> usize {
+pub(crate) fn row(name: &str) -> usize {
     let longest = |(index, (starts, _)): (usize, &(&[&str], _))| {
         starts.iter().filter(|s| name.starts_with(**s)).map(|s| (s.len(), index)).max()
     };

@@ -74,7 +74,11 @@ fn materials(model: &mut Model) {
     };
     model.materials.extend([
         cloth("Cloth_Blouse", "blouse", 0xc2bde6, 0x4a4674),
-        Material { extras: [("partId", "jacket_part_id")].into(), ..cloth("Jacket", "jacket", 0x9a88c8, 0x14142c) },
+        Material {
+            extras: [("partId", "jacket_part_id")].into(),
+            part_ramps: &["Jacket", "Metal", "Metal"],
+            ..cloth("Jacket", "jacket", 0x9a88c8, 0x14142c)
+        },
         Material { name: "Jacket_Lining", color: srgba(0xe8a33d), shade: srgb(0xb0603a), ..Material::default() },
         fur,
         Material {

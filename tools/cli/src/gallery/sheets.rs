@@ -131,7 +131,7 @@ fn head() -> Vec<Sheet> {
                 row(
                     |scene| {
                         for rim in scene.materials.iter_mut().filter_map(|m| m.depth_rim.as_mut()) {
-                            *rim = DepthRim { shade_color: [0.16, 0.22, 0.6], width_px: 5.0, ..*rim };
+                            *rim = DepthRim { shade_color: [0.2, 0.35, 0.9], width_px: 10.0, ..*rim };
                         }
                     },
                     light_sweep(Camera::Framed(Framing::Portrait, 25.0), 1.0, "two sides, "),
@@ -141,9 +141,9 @@ fn head() -> Vec<Sheet> {
                     light_sweep(Camera::Framed(Framing::Portrait, 25.0), 1.0, "lamp, ").into_iter().map(|panel| {
                         Panel {
                             lamp: Some(PunctualLight {
-                                position: glam::Vec3::new(-0.9, 1.3, -0.4),
+                                position: glam::Vec3::new(-0.7, 1.5, -0.7),
                                 color: LinearRgb([1.0, 0.5, 0.1]),
-                                intensity: 1.5,
+                                intensity: 0.5,
                                 range: 0.0,
                                 spot: None,
                             }),
