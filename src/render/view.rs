@@ -408,13 +408,17 @@ mod tests {
     /// Shaders know the channels by the same numbers and names, and serde by the same names.
     #[test]
     fn channels_have_one_name_and_number_everywhere() {
-        let (_, text) = super::super::shaders::ENTRIES.iter().find(|(stem, _)| *stem == "opaque").expect("an entry");
-        let module = naga::front::wgsl::parse_str(text).expect("valid WGSL");
+        // A coat has a pass of its own.
+        let [opaque, fluff] = ["opaque", "fluff"].map(|entry| {
+            let (_, text) = super::super::shaders::ENTRIES.iter().find(|(stem, _)| *stem == entry).expect("an entry");
+            naga::front::wgsl::parse_str(text).expect("valid WGSL")
+        });
         for channel in Channel::ALL {
             assert_eq!(Channel::from_name(channel.name()), Some(*channel));
             assert_eq!(serde_json::to_value(channel).expect("a name"), channel.name());
             let Some(code) = channel.shader_code().filter(|_| *channel != Channel::EyesThrough) else { continue };
             let name = format!("CHANNEL_{}", channel.name().to_uppercase().replace('-', "_"));
+            let module = if *channel == Channel::Fluff { &fluff } else { &opaque };
             let (_, constant) = module.constants.iter().find(|(_, c)| c.name.as_deref() == Some(&name)).expect(&name);
             let value = &module.global_expressions[constant.init];
             assert!(

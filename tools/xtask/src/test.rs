@@ -18,15 +18,19 @@ const SWIFTSHADER: [&str; 3] = [
 
 /// Tests that say something about a driver; of the whole workspace, so that nothing is built anew. Each part of the look has
 /// its pictures among the goldens of the character.
-const ON_SECOND_DRIVER: [&str; 16] = [
+const ON_SECOND_DRIVER: [&str; 20] = [
     "test",
     "--workspace",
     "--test",
     "adapters",
     "--test",
+    "body_looks",
+    "--test",
     "depth_rim",
     "--test",
     "golden",
+    "--test",
+    "golden_looks",
     "--test",
     "golden_character",
     "--test",
