@@ -98,12 +98,41 @@ fn each_of_a_crowd_casts_on_itself() {
     assert!(alone > 20 && crowd.abs_diff(8 * alone) < 4 * alone, "{alone} pixels alone, {crowd} of nine");
 }
 
+/// Maps are drawn again when anything that they show has changed, so that a scene that is used again draws as a new one does.
+#[test]
+fn maps_follow_light_pose_and_places() {
+    let gpu = gpu();
+    let scene = anime_heroine();
+    let mut view = View::framed(&scene, Framing::Bust, 0.0, [96, 96]);
+    let mut views = vec![view.clone()];
+    view.lights.directional.to_light = Vec3::new(-0.8, 0.5, 0.3).normalize();
+    views.push(view.clone());
+    view.instances = vec![Mat4::from_rotation_y(0.6)];
+    views.push(view.clone());
+    views.push(views[0].clone());
+    let mut renderer = hikage::Renderer::new(&gpu).expect("a renderer");
+    let mut used = renderer.upload(&scene).expect("an upload");
+    for (i, view) in views.iter().enumerate() {
+        let again = renderer.render(&mut used, view).expect("a picture");
+        let mut fresh = renderer.upload(&scene).expect("an upload");
+        assert!(again == renderer.render(&mut fresh, view).expect("a picture"), "view {i} shows an older shadow");
+    }
+    let mut pose = hikage::motion::Pose::rest(&scene);
+    pose.set_stance(&scene, hikage::motion::Stance::Bend);
+    used.set_pose(&gpu, &scene, &pose);
+    let bent = renderer.render(&mut used, &views[0]).expect("a picture");
+    let mut fresh = renderer.upload(&scene).expect("an upload");
+    fresh.set_pose(&gpu, &scene, &pose);
+    assert!(bent == renderer.render(&mut fresh, &views[0]).expect("a picture"), "a pose shows an older shadow");
+}
+
 /// On the whole heroine: her chin shades her neck, and nothing gets lighter.
 #[test]
 fn the_chin_shades_the_neck() {
     let (gpu, mut heroine) = (gpu(), anime_heroine());
-    // Where a terminator is darker than shade, shade may be the lighter one.
+    // Where a terminator or the bangs' shadow is darker than shade, shade may be the lighter one.
     heroine.materials.iter_mut().for_each(|m| m.shade_ramp = None);
+    heroine.bangs = None;
     let mut view = View::framed(&heroine, Framing::Portrait, 0.0, [256, 256]);
     view.lights.ambient = Ambient::uniform(LinearRgb::BLACK);
     view.lights.directional.to_light = Vec3::new(0.1, 0.8, 0.6).normalize();

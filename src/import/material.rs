@@ -104,9 +104,8 @@ fn read_common(json: &Json, material: &mut Material, textures: &mut Textures, wa
             [one, other] => one.or(other).map(|ramp| [ramp; 2]),
         };
         let rows = maps.f32_or("rampRows", 1.0).clamp(1.0, 256.0) as u32;
-        let row_of = |value: &Json| value.as_f32().ok().map(|row| row.max(0.0) as u32);
         for (row, found) in authored.part_rows.iter_mut().zip(maps.list("partRows")) {
-            *row = row_of(&found).map(|r| r.min(rows.saturating_sub(1)));
+            *row = found.as_f32().map_or(-1, |r| (r.max(0.0) as u32).min(rows.saturating_sub(1)) as i32);
         }
         authored.ramp_rows = [rows, (maps.f32_or("rampRow", 0.0).max(0.0) as u32).min(rows.saturating_sub(1))];
     }

@@ -179,7 +179,7 @@ fn painted_shade(scene: &mut Scene) {
         [Role::Face, Role::Skin, Role::Mouth].into_iter().flat_map(|role| materials_of(scene, role)).collect();
     for (index, material) in scene.materials.iter_mut().enumerate().filter(|(i, _)| !eyes.contains(i)) {
         let Authored { ramps, ramp_rows: [rows, row], part_ids, part_rows, detail_normal, .. } = material.authored;
-        let part_rows = part_rows.map(|r| r.unwrap_or(row));
+        let part_rows = part_rows.map(|r| u32::try_from(r).unwrap_or(row));
         // Where no part has a row of its own, the map need not be read.
         let part_ids = part_ids.filter(|_| part_rows.iter().any(|r| *r != row));
         let maps = ramps.map(|[warm, cool]| RampMaps { warm, cool, rows, row, part_ids, part_rows });

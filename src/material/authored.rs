@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::{MAX_PARTS, TextureRef};
 
 /// Textures that glTF and MToon have no place for.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Authored {
     /// A painted highlight (`highlightBand` or `noseLipHighlight`). Default: none.
@@ -20,8 +20,8 @@ pub struct Authored {
     pub ramp_rows: [u32; 2],
     /// Numbers of parts (`partId`). Default: none.
     pub part_ids: Option<TextureRef>,
-    /// Row of the ramps of each part, from part 1 on (`partRows`); parts beyond have the material's. Default: none.
-    pub part_rows: [Option<u32>; MAX_PARTS],
+    /// Row of the ramps of each part, from part 1 on (`partRows`); -1: the material's own. Default: -1.
+    pub part_rows: [i32; MAX_PARTS],
     /// Shape of a highlight (`highlightShape`). Default: none.
     pub highlight_shape: Option<TextureRef>,
     /// What a stone encloses (`inclusions`). Default: none.
@@ -30,6 +30,24 @@ pub struct Authored {
     pub heat: Option<TextureRef>,
     /// What the material is (`substance`). Default: none.
     pub substance: Option<Substance>,
+}
+
+impl Default for Authored {
+    fn default() -> Self {
+        Self {
+            highlight: None,
+            face_paint: None,
+            detail_normal: None,
+            ramps: None,
+            ramp_rows: [1, 0],
+            part_ids: None,
+            part_rows: [-1; MAX_PARTS],
+            highlight_shape: None,
+            inclusions: None,
+            heat: None,
+            substance: None,
+        }
+    }
 }
 
 /// What a material is, where a look treats it in its own way.

@@ -214,10 +214,12 @@ impl Renderer {
         self.begin_frame(scene, view);
         // Skinned and morphed vertices; only where the pose has changed.
         self.encode_deform(encoder, scene, None);
-        // What casts on the face, from the light of that shadow.
-        self.encode_bangs_shadow(encoder, scene, None);
-        // Each character from the key light.
-        self.encode_shadow(encoder, scene, None);
+        // What casts on the face, from the light of that shadow, and each character from the key light; only where the
+        // pose, the light or a place has changed.
+        if std::mem::take(&mut scene.maps_pending) {
+            self.encode_bangs_shadow(encoder, scene, None);
+            self.encode_shadow(encoder, scene, None);
+        }
         // Depth of all surfaces, and their normals and parts, where a material reads them.
         self.encode_prepass(encoder, scene, None);
         // Light that blooms, and how far it spreads.
@@ -248,6 +250,7 @@ impl Renderer {
         let changed = scene.instance_rows.len() != view.instances.len()
             || rows.clone().zip(&scene.instance_rows).any(|(a, b)| bytemuck::bytes_of(&a) != bytemuck::bytes_of(b));
         if changed {
+            scene.maps_pending = true;
             scene.instance_rows.clear();
             scene.instance_rows.extend(rows);
             // A copy for the surfaces, and one for each shell of a coat.

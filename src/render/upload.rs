@@ -66,6 +66,10 @@ pub struct GpuScene {
     pub(crate) post: Option<Post>,
     /// Whether the deformed vertices lag behind the pose.
     pub(crate) deform_pending: bool,
+    /// Whether the maps of shadows lag behind pose, light, places or what is cut out.
+    pub(crate) maps_pending: bool,
+    /// The light that they were drawn for, and the time where it moves what is cut out.
+    maps_for: (Vec3, f32),
     source_materials: Vec<Material>,
     posed_materials: BTreeMap<usize, Material>,
     rig: Rig,
@@ -222,6 +226,8 @@ impl Renderer {
             post: scene.post,
             draws,
             deform_pending: true,
+            maps_pending: true,
+            maps_for: (Vec3::ZERO, 0.0),
             source_materials: scene.materials.clone(),
             posed_materials: BTreeMap::new(),
             rig: geometry.rig,
@@ -279,6 +285,7 @@ impl Renderer {
             let view = textures::single(&self.gpu, image, Encoding::Srgb)?;
             // Where lit and shade share their texture, the first slot serves both.
             scene.material_textures[material][0].0 = view;
+            scene.maps_pending = true;
             scene.material_groups[material] =
                 self.material_group(material, &scene.materials, &scene.material_textures[material]);
             Ok(())
@@ -374,12 +381,14 @@ impl GpuScene {
         }
         self.posed_materials.clone_from(&pose.materials);
         self.deform_pending = true;
+        self.maps_pending = true;
     }
 
     /// Gives each character of a larger crowd its shadow map.
     pub(crate) fn fit_shadow(&mut self, renderer: &Renderer) {
         let Some(shadow) = &mut self.shadow else { return };
         if shadow.fit(&renderer.gpu, self.instance_rows.len()) {
+            self.maps_pending = true;
             self.character_group = renderer.character_group(
                 &self.character,
                 &self.map_samplers,
@@ -390,7 +399,11 @@ impl GpuScene {
     }
 
     /// Writes what of the character depends on the light. A crowd shares the shadow of its first one's bangs.
-    pub(crate) fn light(&self, gpu: &Gpu, view: &View) {
+    pub(crate) fn light(&mut self, gpu: &Gpu, view: &View) {
+        let moves = self.draws.iter().any(|d| d.flags.uv_animation);
+        let wanted = (view.lights.directional.to_light, if moves { view.time_s } else { 0.0 });
+        self.maps_pending |= self.maps_for != wanted;
+        self.maps_for = wanted;
         let from_world = view.instances.first().copied().unwrap_or_default().inverse();
         let to_light = from_world.transform_vector3(view.lights.directional.to_light).normalize_or(Vec3::Z);
         let uniform = CharacterUniform::new(

@@ -411,6 +411,7 @@ fn shade_surface(options: SurfaceOptions, in: SurfaceInput) -> vec4f {
         if options.bangs_shadow {
             // By its share and not along the ramp, whose terminator is much narrower than the shadow's soft edge.
             ramped = mix(ramped, ramp_color(options, uv, base.rgb, shade, 0.0), received);
+            soft *= 1.0 - received;
         }
         direct = ramped * light;
     } else {
