@@ -20,7 +20,7 @@ const TOLERANCE: Tolerance = Tolerance { channel: 8, outliers: 0.008, blob: 20, 
 
 /// Pictures are drawn so many times finer than they are kept: hair is all edges, and each driver covers edges in its own
 /// way.
-const FINER: u32 = 3;
+const FINER: u32 = 4;
 
 /// The mean of each square of so many pixels a side.
 fn shrunk(picture: &Image, finer: u32) -> Image {
