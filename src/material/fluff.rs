@@ -7,6 +7,7 @@ pub const MAX_SHELLS: u32 = 24;
 
 /// Shells round the surface, each with the strands that reach so far. Fewer are drawn where they would lie closer than a
 /// pixel. Light and colour are those of the surface; strands grow darker towards the root.
+/// Each shell costs what drawing the surface once more does.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Fluff {
