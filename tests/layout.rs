@@ -4,7 +4,7 @@ use std::mem::{offset_of, size_of};
 
 use hikage::render::uniforms::{
     AffineRows, CharacterUniform, DecalUniform, DeformGroup, DeformVertex, FrameUniform, MaterialUniform, MorphEntry,
-    PunctualLightUniform, UvTransformUniform,
+    PostUniform, PunctualLightUniform, UvTransformUniform,
 };
 
 struct Layout {
@@ -54,6 +54,7 @@ fn structs_match_their_wgsl() {
                 punctual,
             }
         ),
+        layout!("post", "PostUniform", PostUniform { background, bloom, tone }),
         layout!("opaque", "UvTransform", UvTransformUniform { row_u, row_v }),
         layout!("opaque", "DecalPlace", DecalUniform { row_u, row_v, sheet, color }),
         layout!(

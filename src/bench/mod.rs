@@ -15,14 +15,7 @@ use crate::{
     motion::Pose,
     render::{
         color_target, draw_list,
-        pass::{
-            eyes_through::EyesThroughInputs,
-            floor::{FloorInputs, FloorPass},
-            fluff::FluffInputs,
-            opaque::OpaqueInputs,
-            outline::OutlineInputs,
-            transparent::TransparentInputs,
-        },
+        pass::floor::{FloorInputs, FloorPass},
     },
     scene::Scene,
 };
@@ -120,6 +113,9 @@ impl<'a> Stage<'a> {
     /// [`Error::Argument`] for options out of their domain; [`Error::Gpu`] where the adapter fails.
     pub fn new(gpu: &Gpu, scene: &'a Scene, options: &BenchOptions) -> Result<Self> {
         options.view.check()?;
+        if options.frames == 0 {
+            return Err(Error::Argument { what: "frames".to_owned(), message: "is 0; expected at least 1".to_owned() });
+        }
         let output = Output { samples: options.samples, ..Output::default() };
         let mut renderer = Renderer::with_output(gpu, output)?;
         let uploaded = renderer.upload(scene)?;
@@ -142,14 +138,7 @@ impl<'a> Stage<'a> {
     /// # Errors
     /// [`Error::Gpu`] where the adapter fails.
     pub fn frame(&mut self) -> Result<()> {
-        self.draw(true, |pass, stage| {
-            let scene = &stage.uploaded;
-            stage.renderer.opaque.encode(pass, &OpaqueInputs { scene });
-            stage.renderer.outline.encode(pass, &OutlineInputs { scene });
-            stage.renderer.fluff.encode(pass, &FluffInputs { scene, px_per_m: stage.view.px_per_m() });
-            stage.renderer.eyes_through.encode(pass, &EyesThroughInputs { scene });
-            stage.renderer.transparent.encode(pass, &TransparentInputs { scene });
-        })
+        self.draw(true, |pass, stage| stage.renderer.record_surfaces(pass, &stage.uploaded, &stage.view))
     }
 
     /// The same with every triangle drawn once, unlit, with one texture.
@@ -206,9 +195,6 @@ impl<'a> Stage<'a> {
 /// # Errors
 /// [`Error::Argument`] for options out of their domain; [`Error::Gpu`] where the adapter fails.
 pub fn run(gpu: &Gpu, scene: &Scene, options: &BenchOptions) -> Result<BenchReport> {
-    if options.frames == 0 {
-        return Err(Error::Argument { what: "frames".to_owned(), message: "is 0; expected at least 1".to_owned() });
-    }
     let start = Instant::now();
     let mut stage = Stage::new(gpu, scene, options)?;
     let upload_ms = milliseconds(start);

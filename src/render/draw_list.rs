@@ -29,8 +29,6 @@ pub(crate) struct Draw {
     pub fluff: Option<wgpu::RenderPipeline>,
     /// Draws its light that blooms.
     pub glow: Option<wgpu::RenderPipeline>,
-    /// Hides light that blooms behind it.
-    pub hides_glow: Option<wgpu::RenderPipeline>,
     pub flags: SurfaceFlags,
     /// Draws it into the map of the bangs: always where it belongs to another character, for its own face if it casts on
     /// that.
@@ -102,8 +100,6 @@ impl Renderer {
                 }),
                 glow: (blooms && material.glow.is_some())
                     .then(|| self.glow.pipeline(&self.gpu, &self.layouts, flags, material)),
-                hides_glow: (blooms && !blend)
-                    .then(|| self.prepass.pipeline(&self.gpu, &self.layouts, flags, material, true)),
                 flags,
                 mark,
                 through: (mark == Mark::Eyes)

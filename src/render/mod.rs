@@ -31,7 +31,7 @@ use pass::{
     deform::{DeformInputs, DeformPass},
     eyes_through::{EyesThroughInputs, EyesThroughPass},
     fluff::{FluffInputs, FluffPass},
-    glow::{GlowInputs, GlowPass, GlowTargets},
+    glow::{self, GlowInputs, GlowPass},
     opaque::{OpaqueInputs, OpaquePass},
     outline::{OutlineInputs, OutlinePass},
     post::{PostInputs, PostPass},
@@ -77,21 +77,21 @@ pub(crate) struct Layouts {
 #[derive(Debug)]
 pub struct Renderer {
     pub(crate) gpu: Gpu,
-    pub(crate) output: Output,
+    output: Output,
     pub(crate) layouts: Layouts,
-    pub(crate) deform: DeformPass,
-    pub(crate) bangs_near: BangsNearPass,
-    pub(crate) bangs_shadow: BangsShadowPass,
-    pub(crate) prepass: PrepassPass,
-    pub(crate) shadow: ShadowPass,
-    pub(crate) opaque: OpaquePass,
-    pub(crate) outline: OutlinePass,
-    pub(crate) fluff: FluffPass,
-    pub(crate) glow: GlowPass,
+    deform: DeformPass,
+    bangs_near: BangsNearPass,
+    bangs_shadow: BangsShadowPass,
+    prepass: PrepassPass,
+    shadow: ShadowPass,
+    opaque: OpaquePass,
+    outline: OutlinePass,
+    fluff: FluffPass,
+    glow: GlowPass,
     bloom: BloomPass,
     post: PostPass,
-    pub(crate) eyes_through: EyesThroughPass,
-    pub(crate) transparent: TransparentPass,
+    eyes_through: EyesThroughPass,
+    transparent: TransparentPass,
     frame_uniform: wgpu::Buffer,
     frame_group: wgpu::BindGroup,
     color_targets: Option<ColorTargets>,
@@ -130,7 +130,7 @@ impl Renderer {
                 usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
                 mapped_at_creation: false,
             });
-            let frame_group = frame_group(gpu, &layouts, &frame_uniform, &PrepassTargets::new(gpu, [1, 1]));
+            let frame_group = frame_group(gpu, &layouts, &frame_uniform, &PrepassTargets::new(gpu, [1, 1], false));
             Self {
                 gpu: gpu.clone(),
                 output,
@@ -227,20 +227,25 @@ impl Renderer {
         // One colour pass: opaque, outlines and transparent share their targets, so samples are resolved once.
         let mut pass = self.begin_color_pass(encoder, view, target, scene.post.is_some(), None);
         draw_list::bind_scene(&mut pass, scene, self.color_frame_group(scene), &scene.character_group);
-        // Body, face, hair.
-        self.opaque.encode(&mut pass, &OpaqueInputs { scene });
-        // Lines around them, hidden where a surface is nearer.
-        self.outline.encode(&mut pass, &OutlineInputs { scene });
-        // Coats of short hair over both.
-        self.fluff.encode(&mut pass, &FluffInputs { scene, px_per_m: view.px_per_m() });
-        // Eyes and brows through the bangs.
-        self.eyes_through.encode(&mut pass, &EyesThroughInputs { scene });
-        // What is seen through, far before near.
-        self.transparent.encode(&mut pass, &TransparentInputs { scene });
+        self.record_surfaces(&mut pass, scene, view);
         drop(pass);
         // Bloom, tone curve, background, smooth edges.
         self.encode_post(encoder, scene, view, target, None);
         Ok(())
+    }
+
+    /// Every draw of the colour pass.
+    pub(crate) fn record_surfaces(&self, pass: &mut wgpu::RenderPass<'_>, scene: &GpuScene, view: &View) {
+        // Body, face, hair.
+        self.opaque.encode(pass, &OpaqueInputs { scene });
+        // Lines around them, hidden where a surface is nearer.
+        self.outline.encode(pass, &OutlineInputs { scene });
+        // Coats of short hair over both.
+        self.fluff.encode(pass, &FluffInputs { scene, px_per_m: view.px_per_m() });
+        // Eyes and brows through the bangs.
+        self.eyes_through.encode(pass, &EyesThroughInputs { scene });
+        // What is seen through, far before near.
+        self.transparent.encode(pass, &TransparentInputs { scene });
     }
 
     /// Writes what changes with the view: uniforms, instances, order of transparent draws, targets of a new size.
@@ -275,8 +280,9 @@ impl Renderer {
         {
             self.post_targets = Some(PostTargets::new(self, view.size, post));
         }
-        if !scene.prepass.is_empty() && self.prepass_targets.as_ref().is_none_or(|(t, _)| t.size != view.size) {
-            let targets = PrepassTargets::new(&self.gpu, view.size);
+        let fits = |t: &PrepassTargets| t.size == view.size && (t.has_surfaces || !scene.has_inner_lines);
+        if !scene.prepass.is_empty() && !self.prepass_targets.as_ref().is_some_and(|(t, _)| fits(t)) {
+            let targets = PrepassTargets::new(&self.gpu, view.size, scene.has_inner_lines);
             let group = frame_group(&self.gpu, &self.layouts, &self.frame_uniform, &targets);
             self.prepass_targets = Some((targets, group));
         }
@@ -341,8 +347,8 @@ impl Renderer {
         timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
     ) {
         let targets = self.post_targets.as_ref().filter(|_| scene.post.is_some());
-        if let Some(PostTargets { light: Some((targets, chain)), .. }) = targets {
-            let inputs = GlowInputs { scene, frame: &self.frame_group, targets };
+        if let Some(PostTargets { light: Some((light, chain)), .. }) = targets {
+            let inputs = GlowInputs { scene, frame: self.color_frame_group(scene), light };
             self.glow.encode(encoder, &inputs, timestamps);
             self.bloom.encode(encoder, &BloomInputs { chain });
         }
@@ -417,7 +423,7 @@ impl Renderer {
     /// Renders one of the prepass's channels as a picture.
     fn render_channel(&mut self, scene: &mut GpuScene, view: &View) -> Result<Image> {
         self.begin_frame(scene, view);
-        let targets = PrepassTargets::new(&self.gpu, view.size);
+        let targets = PrepassTargets::new(&self.gpu, view.size, true);
         let mut encoder =
             self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("channel") });
         self.encode_deform(&mut encoder, scene, None);
@@ -448,7 +454,7 @@ struct PostTargets {
     post: Post,
     color: ColorTargets,
     picture: wgpu::TextureView,
-    light: Option<(GlowTargets, BloomChain)>,
+    light: Option<(wgpu::TextureView, BloomChain)>,
     group: wgpu::BindGroup,
     pipeline: wgpu::RenderPipeline,
 }
@@ -458,12 +464,12 @@ impl PostTargets {
         let Renderer { gpu, output, bloom, post: pass, .. } = renderer;
         let picture = targets::sampled(gpu, "picture", size, HDR_FORMAT);
         let light = post.bloom.map(|settings| {
-            let glow = GlowTargets::new(gpu, size);
-            let chain = bloom.chain(gpu, &glow.light, size[1], settings);
+            let glow = glow::target(gpu, size);
+            let chain = bloom.chain(gpu, &glow, size[1], settings);
             (glow, chain)
         });
         // Without bloom its strength is 0, and any picture will do.
-        let spread = light.as_ref().map_or(&picture, |(glow, _)| &glow.light);
+        let spread = light.as_ref().map_or(&picture, |(glow, _)| glow);
         Self {
             post,
             color: ColorTargets::new(gpu, size, Output { format: HDR_FORMAT, ..*output }),

@@ -19,6 +19,7 @@ pub(crate) struct ColorTargets {
 #[derive(Debug)]
 pub(crate) struct PrepassTargets {
     pub size: [u32; 2],
+    pub has_surfaces: bool,
     pub surfaces: wgpu::Texture,
     pub depth: wgpu::Texture,
     pub surfaces_view: wgpu::TextureView,
@@ -67,16 +68,18 @@ impl ColorTargets {
 }
 
 impl PrepassTargets {
-    pub fn new(gpu: &Gpu, size: [u32; 2]) -> Self {
-        let make = |label, format| {
+    /// Without normals and parts, these have one texel that nobody reads.
+    pub fn new(gpu: &Gpu, size: [u32; 2], has_surfaces: bool) -> Self {
+        let make = |label, size, format| {
             let usage = wgpu::TextureUsages::RENDER_ATTACHMENT
                 | wgpu::TextureUsages::TEXTURE_BINDING
                 | wgpu::TextureUsages::COPY_SRC;
             texture(gpu, label, size, format, usage)
         };
-        let (surfaces, depth) = (make("surfaces", SURFACES_FORMAT), make("depth map", DEPTH_FORMAT));
+        let surfaces = make("surfaces", if has_surfaces { size } else { [1, 1] }, SURFACES_FORMAT);
+        let depth = make("depth map", size, DEPTH_FORMAT);
         let (surfaces_view, depth_view) = (view(&surfaces), view(&depth));
-        Self { size, surfaces, depth, surfaces_view, depth_view }
+        Self { size, has_surfaces, surfaces, depth, surfaces_view, depth_view }
     }
 }
 

@@ -10,10 +10,10 @@ use crate::{
         UvTransform,
     },
     render::{
-        View,
+        Background, View,
         pass::{bangs_shadow::BangsMap, shadow::ShadowRows},
     },
-    scene::{EyesThrough, MAX_PUNCTUAL_LIGHTS},
+    scene::{EyesThrough, MAX_PUNCTUAL_LIGHTS, Post, ToneCurve},
     sdf::{FaceMap, MAX_PITCHES},
 };
 
@@ -274,6 +274,34 @@ pub struct CharacterUniform {
     pub shadow_spread: f32,
     pub shadow_middle: [f32; 3],
     pub shadow_layers: u32,
+}
+
+/// `PostUniform` of `wgsl/pass/post.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+pub struct PostUniform {
+    pub background: [f32; 4],
+    pub bloom: f32,
+    pub tone: u32,
+    pub padding: [u32; 2],
+}
+
+impl PostUniform {
+    pub(crate) fn new(post: Post, background: Background) -> Self {
+        let background = match background {
+            Background::Transparent => [0.0; 4],
+            Background::Color(srgb) => {
+                let [r, g, b] = srgb.to_linear().0;
+                [r, g, b, 1.0]
+            }
+        };
+        let tone = match post.tone {
+            ToneCurve::None => 0,
+            ToneCurve::Filmic => 1,
+            ToneCurve::Neutral => 2,
+        };
+        Self { background, bloom: post.bloom.map_or(0.0, |b| b.strength), tone, padding: [0; 2] }
+    }
 }
 
 /// `DeformVertex` of `wgsl/pass/deform.wgsl`, and the first vertex stream of every draw.

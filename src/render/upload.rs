@@ -53,7 +53,7 @@ pub struct GpuScene {
     pub(crate) material_groups: Vec<wgpu::BindGroup>,
     /// Textures of each material, in the order of their slots.
     material_textures: Vec<Vec<(wgpu::TextureView, wgpu::Sampler)>>,
-    /// Pipelines of the prepass, one for each draw; empty where no material reads it.
+    /// Pipelines of the prepass, one for each draw; empty where nothing reads it.
     pub(crate) prepass: Vec<Option<wgpu::RenderPipeline>>,
     /// Whether a material has inner lines, which read normals and parts.
     pub(crate) has_inner_lines: bool,
@@ -183,7 +183,7 @@ impl Renderer {
         let deform = self.deform.buffers(&self.gpu, &geometry.deform_input());
         let draws = self.make_draws(scene, &geometry.parts);
         let has_inner_lines = draws.iter().any(|d| d.flags.inner_lines);
-        let prepass = if has_inner_lines || draws.iter().any(|d| d.flags.depth_rim) {
+        let prepass = if has_inner_lines || draws.iter().any(|d| d.flags.depth_rim || d.glow.is_some()) {
             let Self { prepass, gpu, layouts, .. } = self;
             let mut make =
                 |d: &Draw| prepass.pipeline(gpu, layouts, d.flags, &scene.materials[d.material], !has_inner_lines);
@@ -457,10 +457,10 @@ impl GpuScene {
         }
     }
 
-    /// Draw calls of one frame with everything in view, outlines included.
+    /// Draw calls of the colour pass with everything in view, outlines and coats of fluff included.
     #[must_use]
     pub fn draw_count(&self) -> usize {
-        self.draws.iter().map(|d| 1 + usize::from(d.outline.is_some())).sum()
+        self.draws.iter().map(|d| 1 + usize::from(d.outline.is_some()) + usize::from(d.fluff.is_some())).sum()
     }
 
     /// Triangles of one character, outlines not counted.

@@ -189,7 +189,7 @@ impl Channel {
         matches!(self, Self::Normal | Self::Depth | Self::PartId)
     }
 
-    /// Number by which shaders know a channel of shading: `CHANNEL_*` in `wgsl/bind/surface.wgsl`.
+    /// Number by which shaders know a channel of shading: `CHANNEL_*` in `wgsl/bind/options.wgsl`.
     pub(crate) fn shader_code(self) -> Option<u32> {
         Some(match self {
             Self::Final | Self::Normal | Self::Depth | Self::PartId => return None,

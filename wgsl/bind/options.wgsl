@@ -1,5 +1,5 @@
-// What a pipeline includes: constants set at its creation. `surface_options` is the only reader.
-import package::bind::surface::SurfaceOptions;
+// What a pipeline includes: constants set at its creation, so that what a material does not use costs nothing.
+// `surface_options` is their only reader.
 
 override UNLIT: bool = false;
 override BASE_TEXTURE: bool = false;
@@ -83,6 +83,66 @@ override INNER_LINES: bool = false;
 // What is drawn in place of the shaded colour; 0: nothing.
 override CHANNEL: u32 = 0u;
 
+// Parts of a surface.
+struct SurfaceOptions {
+    unlit: bool,
+    base_texture: bool,
+    shade_texture: bool,
+    shade_is_base: bool,
+    shift_texture: bool,
+    normal_map: bool,
+    emission_texture: bool,
+    matcap: bool,
+    rim: bool,
+    rim_mask: bool,
+    uv_transforms: bool,
+    uv_animation: bool,
+    uv_animation_mask: bool,
+    vertex_color: bool,
+    alpha_mask: bool,
+    alpha_coverage: bool,
+    face_shadow: bool,
+    face_stack: bool,
+    face_back: bool,
+    face_masks: bool,
+    transition: bool,
+    face_paint: bool,
+    bangs_shadow: bool,
+    lid_shadow: bool,
+    highlight: bool,
+    highlight_second: bool,
+    highlight_apart: bool,
+    highlight_breakup: bool,
+    layered: bool,
+    cast_shadow: bool,
+    shade_ramp: bool,
+    ramp_maps: bool,
+    ramp_parts: bool,
+    shade_shift: bool,
+    light_response: bool,
+    fur_detail: bool,
+    fur_color: bool,
+    depth_rim: bool,
+    shaped_highlight: bool,
+    shaped_map: bool,
+    shaped_brushed: bool,
+    sparkle: bool,
+    gem: bool,
+    gem_inclusions: bool,
+    diamond: bool,
+    fire: bool,
+    emission_scroll: bool,
+    emission_blink: bool,
+    stocking: bool,
+    decals: bool,
+    dissolve: bool,
+    dither_fade: bool,
+    rim_width: bool,
+    rim_shade: bool,
+    inner_lines: bool,
+    channel: u32,
+}
+
 fn surface_options() -> SurfaceOptions {
     return SurfaceOptions(
         UNLIT, BASE_TEXTURE, SHADE_TEXTURE, SHADE_IS_BASE, SHIFT_TEXTURE, NORMAL_MAP, EMISSION_TEXTURE, MATCAP, RIM,
@@ -94,4 +154,31 @@ fn surface_options() -> SurfaceOptions {
         GEM_INCLUSIONS, DIAMOND, FIRE, EMISSION_SCROLL, EMISSION_BLINK, STOCKING, DECALS, DISSOLVE, DITHER_FADE, RIM_WIDTH,
         RIM_SHADE, INNER_LINES, CHANNEL
     );
+}
+
+// Values of `SurfaceOptions.channel`; `Channel::shader_code` in Rust.
+const CHANNEL_FACE_SHADOW: u32 = 1u;
+const CHANNEL_TRANSITION: u32 = 2u;
+const CHANNEL_FACE_PAINT: u32 = 3u;
+const CHANNEL_HIGHLIGHT: u32 = 4u;
+const CHANNEL_BANGS_SHADOW: u32 = 5u;
+const CHANNEL_LAYER: u32 = 6u;
+const CHANNEL_DEPTH_RIM: u32 = 7u;
+const CHANNEL_EYES_THROUGH: u32 = 8u;
+const CHANNEL_SHADE_RAMP: u32 = 9u;
+const CHANNEL_FUR: u32 = 10u;
+const CHANNEL_SELF_SHADOW: u32 = 11u;
+const CHANNEL_STONE: u32 = 12u;
+const CHANNEL_SPARKLE: u32 = 13u;
+const CHANNEL_FIRE: u32 = 14u;
+const CHANNEL_FLUFF: u32 = 15u;
+const CHANNEL_DISSOLVE: u32 = 16u;
+const CHANNEL_EMISSION: u32 = 17u;
+const CHANNEL_OVERLAY: u32 = 18u;
+const CHANNEL_INNER_LINES: u32 = 19u;
+
+// Whether shading needs the tangent frame.
+fn has_tangents(options: SurfaceOptions) -> bool {
+    return options.normal_map || options.fur_detail || options.gem || options.diamond || options.sparkle
+        || options.shaped_brushed;
 }

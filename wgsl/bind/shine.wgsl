@@ -1,10 +1,32 @@
-// Highlights with a drawn shape, and sparks.
+// Highlights, painted and with a drawn shape, and sparks.
 import package::bind::frame::frame;
 import package::bind::material::{material, highlight_texture, highlight_sampler};
+import package::bind::options::SurfaceOptions;
+import package::bind::texel::texture_uv;
+import package::lib::highlight::highlight_broken;
 import package::lib::shaped_highlight::{
     highlight_brushed, highlight_distance, highlight_inside, highlight_moved,
 };
 import package::lib::sparkle::sparkle;
+
+// Shares of both layers of a painted highlight that has moved so far.
+fn painted_highlight(options: SurfaceOptions, uv: vec4f, moved: vec2f) -> vec2f {
+    // The map is clamped at its border by its sampler.
+    let at = texture_uv(options, uv, material.highlight_uv);
+    var layers = textureSample(highlight_texture, highlight_sampler, at + moved).rg;
+    if options.highlight_apart {
+        let below = at + moved * vec2f(1.0, material.second_motion);
+        layers.y = textureSample(highlight_texture, highlight_sampler, below).g;
+    }
+    if options.highlight_breakup {
+        let strand = textureSample(highlight_texture, highlight_sampler, at).b;
+        layers = vec2f(
+            highlight_broken(layers.x, strand, material.highlight_breakup),
+            highlight_broken(layers.y, strand, material.highlight_breakup)
+        );
+    }
+    return layers;
+}
 
 // Share of the shaped highlight; `along` is the direction of the brush.
 fn shaped_highlight(n: vec3f, view: vec3f, along: vec3f, has_map: bool, is_brushed: bool) -> f32 {

@@ -1,122 +1,36 @@
 // A toon surface: samples the material's textures and shades. Shared by the opaque, outline and transparent passes.
 // Which parts exist is fixed at pipeline creation, so that what a material does not use costs nothing.
+import package::bind::axes::surface_axes;
 import package::bind::character::{BANGS_LAYER, LIDS_LAYER, bangs_lit, shadow_lit};
+import package::bind::contour::{depth_rim, inner_line};
+import package::bind::emission::emitted;
 import package::bind::face::{FaceOptions, face_shading_at};
-import package::bind::frame::{distance_at, frame, frame_depth, surface_at};
+import package::bind::fire::burning_shape;
+import package::bind::frame::frame;
+import package::bind::lights::{ambient, punctual_light};
 import package::bind::material::{
-    UvTransform, material, base_texture, base_sampler, shade_texture, shade_sampler, shift_texture, shift_sampler,
-    normal_texture, normal_sampler, emission_texture, emission_sampler, matcap_texture, matcap_sampler,
-    rim_mask_texture, rim_mask_sampler, animation_mask_texture, animation_mask_sampler, highlight_texture, highlight_sampler, face_paint_texture, face_paint_sampler,
-    face_sampler, detail_color_texture, detail_sampler, detail_normal_texture, ramp_warm_texture, ramp_cool_texture,
-    part_ids_texture, rim_width_texture,
+    material, base_texture, base_sampler, shade_texture, shade_sampler, shift_texture, shift_sampler, matcap_texture,
+    matcap_sampler, rim_mask_texture, rim_mask_sampler, face_paint_texture, face_paint_sampler, detail_color_texture,
+    detail_sampler,
+};
+import package::bind::options::{
+    CHANNEL_FACE_SHADOW, CHANNEL_TRANSITION, CHANNEL_FACE_PAINT, CHANNEL_HIGHLIGHT, CHANNEL_BANGS_SHADOW, CHANNEL_LAYER,
+    CHANNEL_DEPTH_RIM, CHANNEL_SHADE_RAMP, CHANNEL_FUR, CHANNEL_SELF_SHADOW, CHANNEL_STONE, CHANNEL_SPARKLE,
+    CHANNEL_DISSOLVE, CHANNEL_EMISSION, CHANNEL_OVERLAY, CHANNEL_INNER_LINES, SurfaceOptions,
 };
 import package::bind::overlay::{Painted, with_decals, with_stocking};
-import package::bind::shine::{shaped_highlight, sparks};
+import package::bind::ramp::ramp_color;
+import package::bind::shine::{shaped_highlight, sparks, painted_highlight};
 import package::bind::stone::{Stone, StonePoint, diamond_surface, gem_surface};
+import package::bind::texel::{animated_uv, surface_texel, texture_uv};
 import package::bind::vanish::{burning, is_dithered_away};
 import package::lib::bangs::bangs_share;
-import package::lib::depth_rim::{depth_rim_near, depth_rim_offset, depth_rim_resolved, depth_rim_side, depth_rim_step};
-import package::lib::emission::blink;
 import package::lib::face_paint::face_paint_factor;
 import package::lib::face_shadow::face_shading;
-import package::lib::fire::{fire_color, fire_cover, fire_heat, fire_noise, fire_sway};
 import package::lib::fur::{fur_color, fur_masks};
-import package::lib::highlight::highlight_broken;
-import package::lib::inner_lines::line_between;
-import package::lib::light::{accumulated_n_dot_l, distance_attenuation, light_response, luminance, spot_attenuation};
-import package::lib::mtoon::{
-    mtoon_animate_uv, mtoon_direct, mtoon_gi, mtoon_matcap_uv, mtoon_parametric_rim, mtoon_rim, mtoon_shading,
-};
-import package::lib::normal::{normal_from_map, normalize_or};
-import package::lib::shade_ramp::ramp_bands;
+import package::lib::light::{accumulated_n_dot_l, light_response, luminance};
+import package::lib::mtoon::{mtoon_direct, mtoon_gi, mtoon_matcap_uv, mtoon_parametric_rim, mtoon_rim, mtoon_shading};
 import package::lib::transition::transition_tint;
-
-// Parts of a surface; the entry files fill it from their overrides.
-struct SurfaceOptions {
-    unlit: bool,
-    base_texture: bool,
-    shade_texture: bool,
-    shade_is_base: bool,
-    shift_texture: bool,
-    normal_map: bool,
-    emission_texture: bool,
-    matcap: bool,
-    rim: bool,
-    rim_mask: bool,
-    uv_transforms: bool,
-    uv_animation: bool,
-    uv_animation_mask: bool,
-    vertex_color: bool,
-    alpha_mask: bool,
-    alpha_coverage: bool,
-    face_shadow: bool,
-    face_stack: bool,
-    face_back: bool,
-    face_masks: bool,
-    transition: bool,
-    face_paint: bool,
-    bangs_shadow: bool,
-    lid_shadow: bool,
-    highlight: bool,
-    highlight_second: bool,
-    highlight_apart: bool,
-    highlight_breakup: bool,
-    layered: bool,
-    cast_shadow: bool,
-    shade_ramp: bool,
-    ramp_maps: bool,
-    ramp_parts: bool,
-    shade_shift: bool,
-    light_response: bool,
-    fur_detail: bool,
-    fur_color: bool,
-    depth_rim: bool,
-    shaped_highlight: bool,
-    shaped_map: bool,
-    shaped_brushed: bool,
-    sparkle: bool,
-    gem: bool,
-    gem_inclusions: bool,
-    diamond: bool,
-    fire: bool,
-    emission_scroll: bool,
-    emission_blink: bool,
-    stocking: bool,
-    decals: bool,
-    dissolve: bool,
-    dither_fade: bool,
-    rim_width: bool,
-    rim_shade: bool,
-    inner_lines: bool,
-    channel: u32,
-}
-
-// Values of `SurfaceOptions.channel`; `Channel::shader_code` in Rust.
-const CHANNEL_FACE_SHADOW: u32 = 1u;
-const CHANNEL_TRANSITION: u32 = 2u;
-const CHANNEL_FACE_PAINT: u32 = 3u;
-const CHANNEL_HIGHLIGHT: u32 = 4u;
-const CHANNEL_BANGS_SHADOW: u32 = 5u;
-const CHANNEL_LAYER: u32 = 6u;
-const CHANNEL_DEPTH_RIM: u32 = 7u;
-const CHANNEL_EYES_THROUGH: u32 = 8u;
-const CHANNEL_SHADE_RAMP: u32 = 9u;
-const CHANNEL_FUR: u32 = 10u;
-const CHANNEL_SELF_SHADOW: u32 = 11u;
-const CHANNEL_STONE: u32 = 12u;
-const CHANNEL_SPARKLE: u32 = 13u;
-const CHANNEL_FIRE: u32 = 14u;
-const CHANNEL_FLUFF: u32 = 15u;
-const CHANNEL_DISSOLVE: u32 = 16u;
-const CHANNEL_EMISSION: u32 = 17u;
-const CHANNEL_OVERLAY: u32 = 18u;
-const CHANNEL_INNER_LINES: u32 = 19u;
-
-// Whether shading needs the tangent frame.
-fn has_tangents(options: SurfaceOptions) -> bool {
-    return options.normal_map || options.fur_detail || options.gem || options.diamond || options.sparkle
-        || options.shaped_brushed;
-}
 
 struct SurfaceInput {
     // Pixels from the top left, and depth.
@@ -135,89 +49,6 @@ struct SurfaceInput {
     highlight: vec4f,
     // Place in the shadow map of the character, and its layer.
     shadow: vec4f,
-}
-
-// Input of `surface_texel` where nothing is shaded.
-fn texel_input(uv: vec4f, color: vec4f) -> SurfaceInput {
-    let none = vec3f(0.0);
-    return SurfaceInput(none, none, none, vec4f(0.0), uv, color, vec4f(0.0), none, vec4f(0.0), vec4f(0.0));
-}
-
-// UVs of one texture: animation first, then KHR_texture_transform (MToon, "Compatibility with KHR_texture_transform").
-fn texture_uv(options: SurfaceOptions, uv: vec4f, transform: UvTransform) -> vec2f {
-    if !options.uv_transforms {
-        return uv.xy;
-    }
-    let p = vec3f(select(uv.xy, uv.zw, transform.row_u.w > 0.5), 1.0);
-    return vec2f(dot(transform.row_u.xyz, p), dot(transform.row_v.xyz, p));
-}
-
-// Both UV sets after the material's animation at the frame's time.
-fn animated_uv(options: SurfaceOptions, uv: vec4f) -> vec4f {
-    if !options.uv_animation {
-        return uv;
-    }
-    var mask = 1.0;
-    if options.uv_animation_mask {
-        mask = textureSample(
-            animation_mask_texture, animation_mask_sampler, texture_uv(options, uv, material.animation_mask_uv)
-        ).b;
-    }
-    return moved_uv(uv, mask);
-}
-
-// Both UV sets moved by as much of the material's animation as `mask` says.
-fn moved_uv(uv: vec4f, mask: f32) -> vec4f {
-    let scroll = material.scroll_per_s * frame.time_s;
-    let rotation = material.rotation_rad_per_s * frame.time_s;
-    return vec4f(
-        mtoon_animate_uv(uv.xy, scroll, rotation, mask), mtoon_animate_uv(uv.zw, scroll, rotation, mask)
-    );
-}
-
-// What base colour and alpha are multiplied with: texture and vertex colour.
-fn surface_texel(options: SurfaceOptions, in: SurfaceInput, uv: vec4f) -> vec4f {
-    var texel = vec4f(1.0);
-    if options.base_texture {
-        texel = textureSample(base_texture, base_sampler, texture_uv(options, uv, material.base_uv));
-    }
-    if options.vertex_color {
-        texel *= in.color;
-    }
-    return texel;
-}
-
-// Whether nothing of the surface is there: cut out, or burnt.
-fn surface_cut(options: SurfaceOptions, in_uv: vec4f, color: vec4f) -> bool {
-    if options.dissolve && burning(in_uv.xy) < 0.0 {
-        return true;
-    }
-    let texel = surface_texel(options, texel_input(in_uv, color), animated_uv(options, in_uv));
-    return material.base_color.a * texel.a < material.alpha_cutoff;
-}
-
-// Ambient radiance on a surface that faces n.
-fn ambient(n_y: f32) -> vec3f {
-    return mix(frame.ambient_ground, frame.ambient_sky, n_y * 0.5 + 0.5);
-}
-
-struct Arriving {
-    // Unit.
-    to_light: vec3f,
-    radiance: vec3f,
-}
-
-// Light of a point or spot light at a place.
-fn punctual_light(i: u32, position: vec3f) -> Arriving {
-    let to_light = frame.punctual[i].position - position;
-    let distance_sq = dot(to_light, to_light);
-    let l = to_light * inverseSqrt(max(distance_sq, 1e-8));
-    let radiance = frame.punctual[i].color
-        * distance_attenuation(distance_sq, frame.punctual[i].range)
-        * spot_attenuation(
-            dot(-l, frame.punctual[i].direction), frame.punctual[i].spot_scale, frame.punctual[i].spot_offset
-        );
-    return Arriving(l, radiance);
 }
 
 // Shaded colour (linear, straight), and alpha or the coverage of a masked surface. `in.normal` need not be unit; it faces
@@ -242,7 +73,7 @@ fn shade_surface(options: SurfaceOptions, in: SurfaceInput) -> vec4f {
     if options.fire {
         return burning_shape(options, uv);
     }
-    var texel = surface_texel(options, in, uv);
+    var texel = surface_texel(options, in.color, uv);
     var base = material.base_color * texel;
     if options.alpha_coverage {
         // The cut as a ramp one pixel wide, but never so wide that alpha 1 is not whole or alpha 0 not open. 1e-4: where
@@ -260,23 +91,9 @@ fn shade_surface(options: SurfaceOptions, in: SurfaceInput) -> vec4f {
         return vec4f(base.rgb + emission, base.a);
     }
 
-    var normal = normalize(in.normal);
-    var tangent = vec3f(0.0);
-    if has_tangents(options) {
-        tangent = normalize_or(in.tangent.xyz - normal * dot(normal, in.tangent.xyz), vec3f(0.0));
-    }
-    if options.normal_map || options.fur_detail {
-        var bent: vec3f;
-        var scale = material.normal_scale;
-        if options.fur_detail {
-            let at = texture_uv(options, uv, material.detail_normal_uv);
-            bent = textureSample(detail_normal_texture, detail_sampler, at).xyz;
-            scale = material.fur_normal_scale;
-        } else {
-            bent = textureSample(normal_texture, normal_sampler, texture_uv(options, uv, material.normal_uv)).xyz;
-        }
-        normal = normal_from_map(bent, scale, normal, tangent, in.tangent.w);
-    }
+    let axes = surface_axes(options, in.normal, in.tangent, uv);
+    let normal = axes.normal;
+    let tangent = axes.tangent;
 
     var shift = material.shift;
     if options.shift_texture {
@@ -420,20 +237,7 @@ fn shade_surface(options: SurfaceOptions, in: SurfaceInput) -> vec4f {
     }
     var shine = 0.0;
     if options.highlight {
-        // The map is clamped at its border by its sampler.
-        let at = texture_uv(options, uv, material.highlight_uv);
-        var layers = textureSample(highlight_texture, highlight_sampler, at + in.highlight.xy).rg;
-        if options.highlight_apart {
-            let below = at + in.highlight.xy * vec2f(1.0, material.second_motion);
-            layers.y = textureSample(highlight_texture, highlight_sampler, below).g;
-        }
-        if options.highlight_breakup {
-            let strand = textureSample(highlight_texture, highlight_sampler, at).b;
-            layers = vec2f(
-                highlight_broken(layers.x, strand, material.highlight_breakup),
-                highlight_broken(layers.y, strand, material.highlight_breakup)
-            );
-        }
+        let layers = painted_highlight(options, uv, in.highlight.xy);
         let left = in.highlight.z * mix(material.highlight_in_shade, 1.0, shading);
         if options.highlight_second {
             let second = layers.y * material.second_strength * left;
@@ -506,40 +310,12 @@ fn shade_surface(options: SurfaceOptions, in: SurfaceInput) -> vec4f {
     }
     var contour = 0.0;
     if options.depth_rim {
-        let seen = (frame.view_from_world * vec4f(normal, 0.0)).xy;
-        let height = f32(textureDimensions(frame_depth).y);
-        var width = material.depth_rim_width;
-        if options.rim_width {
-            width *= textureSample(rim_width_texture, base_sampler, texture_uv(options, uv, material.rim_width_uv)).r;
-        }
-        let offset = depth_rim_offset(seen, width, height);
-        let here = frame.near / max(in.pixel.z, 1e-12);
-        // Two places a pixel apart soften the inner edge; a little less, since half a pixel lies between two centres.
-        let half_px = offset * (0.49 / max(length(offset), 0.5));
-        let near_step = distance_at(vec2i(floor(in.pixel.xy + offset - half_px))) - here;
-        let far_step = distance_at(vec2i(floor(in.pixel.xy + offset + half_px))) - here;
-        let threshold = material.depth_rim_threshold;
-        let edge = 0.5 * (depth_rim_step(near_step, threshold) + depth_rim_step(far_step, threshold))
-            * depth_rim_resolved(width, height) * depth_rim_near(here, material.depth_rim_fade);
-        let lit_side = rim_side(normal, seen, frame.to_light);
-        contour = edge * lit_side;
-        let own = mix(vec3f(1.0), base.rgb, material.depth_rim_tint);
-        var rim = material.depth_rim_color * frame.light_color * contour;
-        if options.rim_shade {
-            let shaded = edge * (1.0 - lit_side);
-            rim += material.depth_rim_shade * (frame.light_color * 0.5 + gi) * shaded;
-            contour = max(contour, shaded * 0.5);
-        }
-        for (var i = 0u; i < frame.punctual_count; i++) {
-            let arriving = punctual_light(i, in.world_position);
-            let from_there = edge * rim_side(normal, seen, arriving.to_light) * material.depth_rim_punctual;
-            rim += material.depth_rim_color * min(arriving.radiance, vec3f(1.0)) * from_there;
-            contour = max(contour, from_there * saturate(luminance(arriving.radiance)));
-        }
-        color += rim * own;
+        let rim = depth_rim(options, in.pixel, in.world_position, normal, uv, gi);
+        contour = rim.share;
+        color += rim.light * mix(vec3f(1.0), base.rgb, material.depth_rim_tint);
     }
     if options.inner_lines {
-        let line = inner_line(in.pixel, normal);
+        let line = inner_line(in.pixel);
         if options.channel == CHANNEL_INNER_LINES {
             extra = vec3f(line);
         }
@@ -552,130 +328,10 @@ fn shade_surface(options: SurfaceOptions, in: SurfaceInput) -> vec4f {
     return vec4f(color, base.a);
 }
 
-// What of a surface blooms.
-fn glow_surface(options: SurfaceOptions, in: SurfaceInput) -> vec3f {
-    let uv = animated_uv(options, in.uv);
-    if options.fire {
-        let shape = burning_shape(options, uv);
-        return shape.rgb * shape.a * material.glow;
-    }
-    if options.alpha_mask && material.base_color.a * surface_texel(options, in, uv).a < material.alpha_cutoff {
-        discard;
-    }
-    var burn = 1.0;
-    if options.dissolve {
-        burn = burning(in.uv.xy);
-        if burn < 0.0 {
-            discard;
-        }
-    }
-    var light = emitted(options, uv, burn) * material.glow;
-    if options.unlit {
-        return light;
-    }
-    let normal = normalize(in.normal);
-    let view = normalize(frame.eye - in.world_position);
-    let tangent = normalize_or(in.tangent.xyz - normal * dot(normal, in.tangent.xyz), vec3f(0.0));
-    if options.shaped_highlight {
-        let share = shaped_highlight(normal, view, tangent, options.shaped_map, options.shaped_brushed);
-        light += material.shaped_color * frame.light_color * share * material.shaped_strength * material.glow_highlight;
-    }
-    if options.highlight {
-        let at = texture_uv(options, uv, material.highlight_uv) + in.highlight.xy;
-        let layer = textureSample(highlight_texture, highlight_sampler, at).r;
-        let left = in.highlight.z * smoothstep(0.0, 0.1, dot(normal, frame.to_light));
-        light += material.highlight_color * frame.light_color
-            * (layer * left * material.highlight_strength * material.glow_highlight);
-    }
-    if options.sparkle {
-        let bitangent = cross(normal, tangent) * in.tangent.w;
-        let sparkling = sparks(normal, view, tangent, bitangent, in.uv.xy);
-        light += material.sparkle_color * frame.light_color * sparkling * material.glow_highlight;
-    }
-    return light;
-}
-
-// Light of the surface's own; `burn` is its place in a dissolve.
-fn emitted(options: SurfaceOptions, uv: vec4f, burn: f32) -> vec3f {
-    var emission = material.emission;
-    if options.emission_texture {
-        var at = texture_uv(options, uv, material.emission_uv);
-        if options.emission_scroll {
-            at += fract(material.emission_scroll * frame.time_s);
-        }
-        emission *= textureSample(emission_texture, emission_sampler, at).rgb;
-    }
-    if options.emission_blink {
-        emission *= blink(fract(frame.time_s / material.blink_period), material.blink_low, material.blink_sharpness);
-    }
-    if options.dissolve {
-        emission += material.dissolve_color * (1.0 - saturate(burn));
-    }
-    return emission;
-}
-
-// Share of a line at a pixel: eight places round it are compared with it.
-fn inner_line(pixel: vec3f, normal: vec3f) -> f32 {
-    let height = f32(textureDimensions(frame_depth).y);
-    // A quarter of a pixel lies between the border and the middle of a pixel on the line, as a mean.
-    let radius = max(material.line_width * height / 1024.0 * 0.5, 0.5) + 0.25;
-    let own = surface_at(vec2i(pixel.xy));
-    let here = frame.near / max(pixel.z, 1e-12);
-    var different = 0.0;
-    for (var i = 0; i < 8; i++) {
-        let angle = f32(i) * 0.78539816;
-        let at = vec2i(floor(pixel.xy + vec2f(cos(angle), sin(angle)) * radius));
-        let other = surface_at(at);
-        let step = abs(distance_at(at) - here);
-        different += line_between(
-            own.part, other.part, dot(own.normal, other.normal), step, material.line_steps, material.line_parts > 0.5
-        );
-    }
-    // A line of less than a pixel is as much fainter.
-    return saturate(different * 0.5) * saturate(material.line_width * height / 1024.0);
-}
-
-// Share of a rim by the side of a light; `seen` is the normal as it is seen.
-fn rim_side(normal: vec3f, seen: vec2f, to_light: vec3f) -> f32 {
-    let light_seen = (frame.view_from_world * vec4f(to_light, 0.0)).xy;
-    // 1e-12: a normal or a light towards the viewer has no direction there.
-    let outwards = dot(seen, light_seen) * inverseSqrt(max(dot(seen, seen) * dot(light_seen, light_seen), 1e-12));
-    return depth_rim_side(dot(normal, to_light), outwards, material.depth_rim_side);
-}
-
-// Fire: colour and cover.
-fn burning_shape(options: SurfaceOptions, uv: vec4f) -> vec4f {
-    var at = texture_uv(options, uv, material.highlight_uv);
-    let phase = fract(frame.time_s / material.fire_period);
-    let noise = fire_noise(at, phase, material.fire_cells);
-    at.x += fire_sway(at, phase, material.fire_cells, material.fire_sway);
-    let drawn = textureSample(highlight_texture, highlight_sampler, at).r;
-    let heat = fire_heat(drawn, noise, material.fire_turbulence);
-    let cover = fire_cover(heat, material.fire_erosion, material.fire_softness);
-    if options.channel == CHANNEL_FIRE {
-        return vec4f(vec3f(heat), cover);
-    }
-    if options.channel != 0u {
-        return vec4f(vec3f(0.0), cover);
-    }
-    let color = fire_color(
-        heat, material.fire_rim, material.fire_body, material.fire_heart, material.fire_edges, material.fire_softness
-    );
-    return vec4f(color, cover);
-}
-
-// Number of the part at a place, from 0 on; -1 where the map knows none. The texel itself: numbers are not filtered.
-fn part_at(options: SurfaceOptions, uv: vec4f) -> i32 {
-    let size = vec2f(textureDimensions(part_ids_texture));
-    let at = fract(texture_uv(options, uv, material.part_ids_uv));
-    let part = i32(textureLoad(part_ids_texture, vec2i(at * size), 0).r * 255.0 + 0.5) - 1;
-    return select(-1, part, part < 8);
-}
-
 // Colour of the surface in full light or in full shade, unlit: what a line round it is mixed from.
 fn line_source(options: SurfaceOptions, in_uv: vec4f, color: vec4f, in_shade: bool) -> vec3f {
     let uv = animated_uv(options, in_uv);
-    let texel = surface_texel(options, texel_input(in_uv, color), uv);
+    let texel = surface_texel(options, color, uv);
     let lit = material.base_color.rgb * texel.rgb;
     if !in_shade || options.unlit {
         return lit;
@@ -700,38 +356,6 @@ fn surface_shade(options: SurfaceOptions, texel: vec4f, uv: vec4f, color: vec4f)
         shade *= color.rgb;
     }
     return shade;
-}
-
-// Light that falls on a place from anywhere, at most 1: a line takes it whole, whatever its own direction.
-fn arriving_light(position: vec3f) -> vec3f {
-    var light = frame.light_color + 0.5 * (frame.ambient_sky + frame.ambient_ground);
-    for (var i = 0u; i < frame.punctual_count; i++) {
-        light += punctual_light(i, position).radiance;
-    }
-    return min(light, vec3f(1.0));
-}
-
-// Lit colour at a place of the ramp between full shade (0) and full light (1).
-fn ramp_color(options: SurfaceOptions, uv: vec4f, lit: vec3f, shade: vec3f, place: f32) -> vec3f {
-    if options.ramp_maps {
-        var v = material.ramp_v;
-        if options.ramp_parts {
-            let part = part_at(options, uv);
-            if part >= 0 {
-                v = material.ramp_part_v[part / 4][part % 4];
-            }
-        }
-        let at = vec2f(place, v);
-        let warm = textureSampleLevel(ramp_warm_texture, face_sampler, at, 0.0).rgb;
-        let cool = textureSampleLevel(ramp_cool_texture, face_sampler, at, 0.0).rgb;
-        return lit * mix(warm, cool, frame.coolness);
-    }
-    var dark = shade;
-    if options.shade_shift {
-        // Colours that a turn takes out of the gamut are cut.
-        dark = max(mix(material.shade_shift_warm * shade, material.shade_shift_cool * shade, frame.coolness), vec3f(0.0));
-    }
-    return ramp_bands(lit, dark, lit * material.ramp_terminator, material.ramp_edges, place);
 }
 
 // What one of the debug channels shows.

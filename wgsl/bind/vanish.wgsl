@@ -10,9 +10,13 @@ fn burning(uv: vec2f) -> f32 {
     );
 }
 
+// What is left of a surface that fades pixel by pixel.
+fn dither_left(position: vec3f) -> f32 {
+    let near = material.dither_near;
+    return material.dither_opacity * smoothstep(near.x, max(near.y, near.x + 1e-4), distance(frame.eye, position));
+}
+
 // Whether a pixel is left out.
 fn is_dithered_away(pixel: vec2f, position: vec3f) -> bool {
-    let near = material.dither_near;
-    let by_distance = smoothstep(near.x, max(near.y, near.x + 1e-4), distance(frame.eye, position));
-    return material.dither_opacity * by_distance <= dither_threshold(vec2u(pixel));
+    return dither_left(position) <= dither_threshold(vec2u(pixel));
 }

@@ -2,7 +2,8 @@
 import package::bind::character::{bangs_from_character, character, shadow_receiver};
 import package::bind::frame::frame;
 import package::bind::material::material;
-import package::bind::surface::{SurfaceInput, SurfaceOptions, has_tangents};
+import package::bind::options::{SurfaceOptions, has_tangents};
+import package::bind::surface::SurfaceInput;
 import package::bind::vertex::{VertexInput, bitangent_sign, world_direction, world_position, world_rotated};
 import package::lib::eyes_through::pulled_depth;
 import package::lib::face_shadow::{face_light_angle, face_measure};

@@ -1,7 +1,7 @@
 // Depth of what casts on the face, from the light of the bangs' shadow.
 import package::bind::character::{bangs_from_character, bangs_from_world};
 import package::bind::options::surface_options;
-import package::bind::surface::surface_cut;
+import package::bind::texel::surface_cut;
 import package::bind::vertex::{VertexInput, world_position};
 
 override ALPHA_TEST: bool = false;

@@ -1,17 +1,12 @@
 // Light that spreads: halved down a chain of pictures and added up again (the dual filter, Bjorge 2015).
+import package::bind::picture::{PictureVarying, picture_varying};
 
 @group(0) @binding(0) var below: texture_2d<f32>;
 @group(0) @binding(1) var bloom_sampler: sampler;
 
-struct BloomVarying {
-    @builtin(position) position: vec4f,
-    @location(0) uv: vec2f,
-}
-
 @vertex
-fn vs_main(@builtin(vertex_index) i: u32) -> BloomVarying {
-    let p = vec2f(f32(i % 2u) * 4.0 - 1.0, f32(i / 2u) * 4.0 - 1.0);
-    return BloomVarying(vec4f(p, 0.0, 1.0), vec2f(p.x * 0.5 + 0.5, 0.5 - p.y * 0.5));
+fn vs_main(@builtin(vertex_index) vertex: u32) -> PictureVarying {
+    return picture_varying(vertex);
 }
 
 fn tap(uv: vec2f) -> vec3f {
@@ -20,7 +15,7 @@ fn tap(uv: vec2f) -> vec3f {
 
 // To half the size.
 @fragment
-fn fs_down(in: BloomVarying) -> @location(0) vec4f {
+fn fs_down(in: PictureVarying) -> @location(0) vec4f {
     let h = 0.5 / vec2f(textureDimensions(below));
     let sum = tap(in.uv) * 4.0 + tap(in.uv - h) + tap(in.uv + h) + tap(in.uv + vec2f(h.x, -h.y))
         + tap(in.uv + vec2f(-h.x, h.y));
@@ -29,7 +24,7 @@ fn fs_down(in: BloomVarying) -> @location(0) vec4f {
 
 // To twice the size; what is there already is kept.
 @fragment
-fn fs_up(in: BloomVarying) -> @location(0) vec4f {
+fn fs_up(in: PictureVarying) -> @location(0) vec4f {
     let h = 0.5 / vec2f(textureDimensions(below));
     let straight = tap(in.uv + vec2f(-2.0 * h.x, 0.0)) + tap(in.uv + vec2f(2.0 * h.x, 0.0))
         + tap(in.uv + vec2f(0.0, -2.0 * h.y)) + tap(in.uv + vec2f(0.0, 2.0 * h.y));

@@ -1,8 +1,8 @@
 // Eyes and brows over the hair that hangs before them.
 import package::bind::character::character;
 import package::bind::frame::frame;
-import package::bind::options::surface_options;
-import package::bind::surface::{CHANNEL_EYES_THROUGH, shade_surface};
+import package::bind::options::{surface_options, CHANNEL_EYES_THROUGH};
+import package::bind::surface::shade_surface;
 import package::bind::varying::{Varying, in_face_frame, surface_varying, surface_input};
 import package::bind::vertex::VertexInput;
 import package::lib::color::srgb_from_linear;

@@ -1,8 +1,8 @@
 // Fluff: shells of a coat of short hair, from the root outwards, blended over each other.
 import package::bind::frame::frame;
 import package::bind::material::material;
-import package::bind::options::surface_options;
-import package::bind::surface::{CHANNEL_FLUFF, shade_surface};
+import package::bind::options::{surface_options, CHANNEL_FLUFF};
+import package::bind::surface::shade_surface;
 import package::bind::varying::{Varying, surface_input, surface_varying};
 import package::bind::vertex::VertexInput;
 import package::lib::color::srgb_from_linear;

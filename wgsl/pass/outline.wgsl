@@ -1,10 +1,13 @@
 // Outlines: back faces pushed outwards along smoothed normals.
 import package::bind::frame::frame;
+import package::bind::lights::arriving_light;
 import package::bind::material::{
     material, animation_mask_texture, animation_mask_sampler, outline_mask_texture, outline_mask_sampler,
 };
 import package::bind::options::surface_options;
-import package::bind::surface::{arriving_light, line_source, moved_uv, part_at, shade_surface, texture_uv};
+import package::bind::ramp::part_at;
+import package::bind::surface::{line_source, shade_surface};
+import package::bind::texel::{moved_uv, texture_uv};
 import package::bind::varying::{Varying, surface_varying, surface_input};
 import package::bind::vertex::{VertexInput, world_direction, world_position};
 import package::lib::color::srgb_from_linear;

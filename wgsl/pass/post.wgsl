@@ -1,4 +1,5 @@
 // The finished picture: bloom, tone curve, background, and smooth edges where there is one sample a pixel.
+import package::bind::picture::{PictureVarying, picture_varying};
 import package::lib::color::srgb_from_linear;
 import package::lib::tone::toned;
 
@@ -18,16 +19,9 @@ struct PostUniform {
 @group(0) @binding(2) var spread: texture_2d<f32>;
 @group(0) @binding(3) var post_sampler: sampler;
 
-struct PostVarying {
-    @builtin(position) position: vec4f,
-    @location(0) uv: vec2f,
-}
-
 @vertex
-fn vs_main(@builtin(vertex_index) i: u32) -> PostVarying {
-    // One triangle over the whole picture.
-    let p = vec2f(f32(i % 2u) * 4.0 - 1.0, f32(i / 2u) * 4.0 - 1.0);
-    return PostVarying(vec4f(p, 0.0, 1.0), vec2f(p.x * 0.5 + 0.5, 0.5 - p.y * 0.5));
+fn vs_main(@builtin(vertex_index) vertex: u32) -> PictureVarying {
+    return picture_varying(vertex);
 }
 
 // Premultiplied colour of a place, toned.
@@ -70,7 +64,7 @@ fn smoothed(uv: vec2f, here: vec4f) -> vec4f {
 }
 
 @fragment
-fn fs_main(in: PostVarying) -> @location(0) vec4f {
+fn fs_main(in: PictureVarying) -> @location(0) vec4f {
     var color = finished(in.uv);
     if ANTIALIAS {
         color = smoothed(in.uv, color);

@@ -1,7 +1,7 @@
 // Normal and part of the nearest surface, one sample a pixel, for effects and channels that read them.
 import package::bind::frame::frame;
 import package::bind::options::surface_options;
-import package::bind::surface::surface_cut;
+import package::bind::texel::surface_cut;
 import package::bind::vanish::is_dithered_away;
 import package::bind::vertex::{VertexInput, world_direction, world_position};
 import package::lib::normal::octahedral_from_unit;

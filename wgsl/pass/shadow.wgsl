@@ -1,7 +1,7 @@
 // Depth of a character from the key light.
 import package::bind::character::shadow_from_world;
 import package::bind::options::surface_options;
-import package::bind::surface::surface_cut;
+import package::bind::texel::surface_cut;
 import package::bind::vertex::{VertexInput, world_position};
 
 override ALPHA_TEST: bool = false;

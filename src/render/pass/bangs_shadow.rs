@@ -5,13 +5,13 @@ use std::collections::HashMap;
 use glam::{Mat4, Vec3, Vec4};
 
 use super::{
-    SurfaceFlags,
+    DEPTH_FORMAT, SurfaceFlags, SurfacePipeline,
     bangs_near::{self, BangsNearInputs, BangsNearPass},
-    vertex_buffers,
+    map_depth_state, surface_pipeline,
 };
 use crate::{
     Gpu,
-    material::{AlphaMode, Material},
+    material::Material,
     render::{
         Layouts,
         draw_list::{self, Draw},
@@ -23,13 +23,12 @@ use crate::{
 
 /// Depth of the nearest hair, 0..1 over the range.
 pub(crate) const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R32Float;
-const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
 /// Pipelines by what a material's cut needs.
 #[derive(Debug)]
 pub(crate) struct BangsShadowPass {
     module: wgpu::ShaderModule,
-    pipelines: HashMap<SurfaceFlags, wgpu::RenderPipeline>,
+    pipelines: HashMap<Option<SurfaceFlags>, wgpu::RenderPipeline>,
 }
 
 /// The map of one scene and the camera that draws it.
@@ -145,7 +144,7 @@ pub(crate) fn map_texture(gpu: &Gpu, side: u32, layers: u32) -> wgpu::TextureVie
 }
 
 fn depth_texture(gpu: &Gpu, side: u32) -> wgpu::TextureView {
-    targets::view(&texture(gpu, "bangs depth", [side, 1], DEPTH, wgpu::TextureUsages::empty()))
+    targets::view(&texture(gpu, "bangs depth", [side, 1], DEPTH_FORMAT, wgpu::TextureUsages::empty()))
 }
 
 fn texture(
@@ -180,47 +179,23 @@ impl BangsShadowPass {
         flags: SurfaceFlags,
         material: &Material,
     ) -> wgpu::RenderPipeline {
-        let alpha_test = material.alpha.mode != AlphaMode::Opaque || flags.dissolve;
-        // Without a cut-out nothing is sampled: one pipeline serves all.
-        let flags = if alpha_test {
-            SurfaceFlags { hdr: false, ..flags }
-        } else {
-            SurfaceFlags::default()
-        };
+        let cut = SurfaceFlags { dither_fade: false, ..flags }.cut(material);
         let make = || {
-            let mut constants = flags.constants();
-            constants.push(("ALPHA_TEST", f64::from(u8::from(alpha_test))));
-            let options = || wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
-            gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-                label: Some("bangs shadow"),
-                layout: Some(&layouts.surface),
-                vertex: wgpu::VertexState {
-                    module: &self.module,
-                    entry_point: Some("vs_main"),
-                    compilation_options: options(),
-                    buffers: &vertex_buffers(),
-                },
+            let desc = SurfacePipeline {
+                label: "bangs shadow",
+                module: &self.module,
+                vertex: "vs_main",
+                fragment: Some("fs_main"),
+                constants: &SurfaceFlags::cut_constants(cut),
                 // Cards of hair have no back.
-                primitive: wgpu::PrimitiveState::default(),
-                depth_stencil: Some(wgpu::DepthStencilState {
-                    format: DEPTH,
-                    depth_write_enabled: Some(true),
-                    depth_compare: Some(wgpu::CompareFunction::Less),
-                    stencil: wgpu::StencilState::default(),
-                    bias: wgpu::DepthBiasState::default(),
-                }),
-                multisample: wgpu::MultisampleState::default(),
-                fragment: Some(wgpu::FragmentState {
-                    module: &self.module,
-                    entry_point: Some("fs_main"),
-                    compilation_options: options(),
-                    targets: &[Some(FORMAT.into())],
-                }),
-                multiview_mask: None,
-                cache: None,
-            })
+                cull: None,
+                depth: Some(map_depth_state(0.0)),
+                samples: 1,
+                targets: &[Some(FORMAT.into())],
+            };
+            surface_pipeline(gpu, layouts, &desc)
         };
-        self.pipelines.entry(flags).or_insert_with(make).clone()
+        self.pipelines.entry(cut).or_insert_with(make).clone()
     }
 
     /// Draws what casts on the face of the first character: front hair, clothes, hands, and all of the others; then her lids

@@ -1,6 +1,6 @@
 //! Spreads light over a chain of pictures, each half as large.
 
-use super::HDR_FORMAT;
+use super::{ADD, HDR_FORMAT};
 use crate::{Gpu, render::targets, scene::Bloom};
 
 /// Its pipelines.
@@ -33,15 +33,10 @@ impl BloomPass {
             bind_group_layouts: &[Some(&layout)],
             immediate_size: 0,
         });
-        let add = wgpu::BlendComponent {
-            src_factor: wgpu::BlendFactor::One,
-            dst_factor: wgpu::BlendFactor::One,
-            operation: wgpu::BlendOperation::Add,
-        };
         let make = |entry, blend| {
             targets::picture_pipeline(gpu, "bloom", &pipeline_layout, &module, entry, &[], HDR_FORMAT, blend)
         };
-        let (down, up) = (make("fs_down", None), make("fs_up", Some(wgpu::BlendState { color: add, alpha: add })));
+        let (down, up) = (make("fs_down", None), make("fs_up", Some(ADD)));
         let sampler = targets::linear_sampler(gpu);
         Self { layout, sampler, down, up }
     }

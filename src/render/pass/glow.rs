@@ -1,11 +1,11 @@
-//! Light of surfaces that bloom, hidden by whatever stands before them.
+//! Light of surfaces that bloom, hidden by whatever the prepass shows before them.
 
 use std::collections::HashMap;
 
-use super::{DEPTH_FORMAT, HDR_FORMAT, SurfaceFlags, depth_state, surface_cull, vertex_buffers};
+use super::{ADD, HDR_FORMAT, SurfaceFlags, SurfacePipeline, surface_cull, surface_pipeline};
 use crate::{
     Gpu,
-    material::Material,
+    material::{AlphaMode, Material},
     render::{Layouts, draw_list, shaders, targets, upload::GpuScene},
 };
 
@@ -13,29 +13,21 @@ use crate::{
 #[derive(Debug)]
 pub(crate) struct GlowPass {
     module: wgpu::ShaderModule,
-    pipelines: HashMap<(SurfaceFlags, bool), wgpu::RenderPipeline>,
-}
-
-/// Where it draws: half the size of the picture.
-#[derive(Debug)]
-pub(crate) struct GlowTargets {
-    pub light: wgpu::TextureView,
-    depth: wgpu::TextureView,
-}
-
-impl GlowTargets {
-    pub fn new(gpu: &Gpu, size: [u32; 2]) -> Self {
-        let size = size.map(|s| s.div_ceil(2));
-        let depth = targets::target(gpu, "glow depth", size, 1, DEPTH_FORMAT, false);
-        Self { light: targets::sampled(gpu, "glow", size, HDR_FORMAT), depth: targets::view(&depth) }
-    }
+    pipelines: HashMap<(SurfaceFlags, bool, bool), wgpu::RenderPipeline>,
 }
 
 /// What the pass reads and writes.
 pub(crate) struct GlowInputs<'a> {
     pub scene: &'a GpuScene,
+    /// With the depth of the prepass.
     pub frame: &'a wgpu::BindGroup,
-    pub targets: &'a GlowTargets,
+    /// Of [`target`].
+    pub light: &'a wgpu::TextureView,
+}
+
+/// Where it draws: half the size of the picture.
+pub(crate) fn target(gpu: &Gpu, size: [u32; 2]) -> wgpu::TextureView {
+    targets::sampled(gpu, "glow", size.map(|s| s.div_ceil(2)), HDR_FORMAT)
 }
 
 impl GlowPass {
@@ -51,89 +43,50 @@ impl GlowPass {
         flags: SurfaceFlags,
         material: &Material,
     ) -> wgpu::RenderPipeline {
-        // Neither rims nor shadows change what glows.
-        let flags = SurfaceFlags { depth_rim: false, inner_lines: false, alpha_coverage: false, ..flags };
+        // Neither rims nor the shadow of bangs change what glows.
+        let flags =
+            SurfaceFlags { depth_rim: false, inner_lines: false, bangs_shadow: false, lid_shadow: false, ..flags };
+        let blend = material.alpha.mode == AlphaMode::Blend;
         let make = || {
-            let constants = flags.constants();
-            let options = || wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
-            let add = wgpu::BlendComponent {
-                src_factor: wgpu::BlendFactor::One,
-                dst_factor: wgpu::BlendFactor::One,
-                operation: wgpu::BlendOperation::Add,
+            let mut constants = flags.constants();
+            constants.push(("GLOW_BLEND", f64::from(u8::from(blend))));
+            let desc = SurfacePipeline {
+                label: "glow",
+                module: &self.module,
+                vertex: "vs_main",
+                fragment: Some("fs_main"),
+                constants: &constants,
+                cull: surface_cull(material),
+                depth: None,
+                samples: 1,
+                targets: &[Some(wgpu::ColorTargetState {
+                    format: HDR_FORMAT,
+                    blend: Some(ADD),
+                    write_mask: wgpu::ColorWrites::ALL,
+                })],
             };
-            gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-                label: Some("glow"),
-                layout: Some(&layouts.surface),
-                vertex: wgpu::VertexState {
-                    module: &self.module,
-                    entry_point: Some("vs_main"),
-                    compilation_options: options(),
-                    buffers: &vertex_buffers(),
-                },
-                primitive: wgpu::PrimitiveState { cull_mode: surface_cull(material), ..Default::default() },
-                depth_stencil: Some(wgpu::DepthStencilState {
-                    // The surface itself stands in the depth already, rounded otherwise where it is drawn otherwise.
-                    bias: wgpu::DepthBiasState { constant: 4, slope_scale: 1.0, clamp: 0.0 },
-                    ..depth_state(false)
-                }),
-                multisample: wgpu::MultisampleState::default(),
-                fragment: Some(wgpu::FragmentState {
-                    module: &self.module,
-                    entry_point: Some("fs_main"),
-                    compilation_options: options(),
-                    targets: &[Some(wgpu::ColorTargetState {
-                        format: HDR_FORMAT,
-                        blend: Some(wgpu::BlendState { color: add, alpha: add }),
-                        write_mask: wgpu::ColorWrites::ALL,
-                    })],
-                }),
-                multiview_mask: None,
-                cache: None,
-            })
+            surface_pipeline(gpu, layouts, &desc)
         };
-        self.pipelines.entry((flags, material.double_sided)).or_insert_with(make).clone()
+        self.pipelines.entry((flags, blend, material.double_sided)).or_insert_with(make).clone()
     }
 
-    /// Draws the depth of what hides light, then the light.
+    /// Draws the light.
     pub fn encode(
         &self,
         encoder: &mut wgpu::CommandEncoder,
         inputs: &GlowInputs<'_>,
         timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
     ) {
-        let GlowInputs { scene, frame, targets } = inputs;
-        let depth = |load, store| wgpu::RenderPassDepthStencilAttachment {
-            view: &targets.depth,
-            depth_ops: Some(wgpu::Operations { load, store }),
-            stencil_ops: None,
-        };
-        // From the beginning of the first pass to the end of the last.
-        let begin = timestamps.clone().map(|t| wgpu::RenderPassTimestampWrites { end_of_pass_write_index: None, ..t });
-        let end = timestamps.map(|t| wgpu::RenderPassTimestampWrites { beginning_of_pass_write_index: None, ..t });
-        {
-            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                label: Some("glow depth"),
-                depth_stencil_attachment: Some(depth(wgpu::LoadOp::Clear(0.0), wgpu::StoreOp::Store)),
-                timestamp_writes: begin,
-                ..Default::default()
-            });
-            draw_list::bind_scene(&mut pass, scene, frame, &scene.character_group);
-            for draw in &scene.draws {
-                if let Some(pipeline) = &draw.hides_glow {
-                    draw_list::record(&mut pass, scene, draw, pipeline);
-                }
-            }
-        }
+        let GlowInputs { scene, frame, light } = inputs;
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("glow"),
             color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                view: &targets.light,
+                view: light,
                 depth_slice: None,
                 resolve_target: None,
                 ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::BLACK), store: wgpu::StoreOp::Store },
             })],
-            depth_stencil_attachment: Some(depth(wgpu::LoadOp::Load, wgpu::StoreOp::Discard)),
-            timestamp_writes: end,
+            timestamp_writes: timestamps,
             ..Default::default()
         });
         draw_list::bind_scene(&mut pass, scene, frame, &scene.character_group);

@@ -10,8 +10,7 @@ pub(crate) mod fluff;
 pub(crate) mod glow;
 pub(crate) mod opaque;
 pub(crate) mod outline;
-#[doc(hidden)]
-pub mod post;
+pub(crate) mod post;
 pub(crate) mod prepass;
 pub(crate) mod shadow;
 pub(crate) mod transparent;
@@ -291,6 +290,31 @@ impl SurfaceFlags {
         }
     }
 
+    /// Of passes that draw depth alone: what decides which pixels are there; `None` where all of them are, so that one
+    /// pipeline serves all such materials.
+    pub fn cut(&self, material: &Material) -> Option<Self> {
+        let Self { base_texture, uv_transforms, uv_animation, uv_animation_mask, vertex_color, .. } = *self;
+        let Self { dissolve, dither_fade, .. } = *self;
+        let is_cut = material.alpha.mode != AlphaMode::Opaque || dissolve || dither_fade;
+        is_cut.then(|| Self {
+            base_texture,
+            uv_transforms,
+            uv_animation,
+            uv_animation_mask,
+            vertex_color,
+            dissolve,
+            dither_fade,
+            ..Self::default()
+        })
+    }
+
+    /// Values of the overrides of a pass that draws depth alone, by [`SurfaceFlags::cut`].
+    pub fn cut_constants(cut: Option<Self>) -> Vec<(&'static str, f64)> {
+        let mut constants = cut.unwrap_or_default().constants();
+        constants.push(("ALPHA_TEST", f64::from(u8::from(cut.is_some()))));
+        constants
+    }
+
     /// What a pipeline with these draws into, if pictures go to `output`.
     pub fn output(&self, output: Output) -> Output {
         let format = if self.hdr { HDR_FORMAT } else { output.format };
@@ -364,7 +388,7 @@ impl SurfaceFlags {
 }
 
 /// Vertex streams, as `wgsl/bind/vertex.wgsl` reads them.
-pub(crate) fn vertex_buffers() -> [Option<wgpu::VertexBufferLayout<'static>>; 3] {
+fn vertex_buffers() -> [Option<wgpu::VertexBufferLayout<'static>>; 3] {
     const DEFORMED: &[wgpu::VertexAttribute] = &wgpu::vertex_attr_array![0 => Float32x3, 1 => Uint32x3];
     const STATIC: &[wgpu::VertexAttribute] = &wgpu::vertex_attr_array![2 => Float32x4, 3 => Unorm8x4, 4 => Uint32];
     const INSTANCE: &[wgpu::VertexAttribute] =
@@ -376,6 +400,46 @@ pub(crate) fn vertex_buffers() -> [Option<wgpu::VertexBufferLayout<'static>>; 3]
         layout(24, wgpu::VertexStepMode::Vertex, STATIC),
         layout(48, wgpu::VertexStepMode::Instance, INSTANCE),
     ]
+}
+
+/// What differs between the pipelines that draw surfaces.
+pub(crate) struct SurfacePipeline<'a> {
+    pub label: &'a str,
+    pub module: &'a wgpu::ShaderModule,
+    pub vertex: &'a str,
+    /// Entry point; `None` draws depth alone.
+    pub fragment: Option<&'a str>,
+    pub constants: &'a [(&'a str, f64)],
+    pub cull: Option<wgpu::Face>,
+    pub depth: Option<wgpu::DepthStencilState>,
+    pub samples: u32,
+    pub targets: &'a [Option<wgpu::ColorTargetState>],
+}
+
+/// Pipeline of a pass that draws surfaces.
+pub(crate) fn surface_pipeline(gpu: &Gpu, layouts: &Layouts, desc: &SurfacePipeline<'_>) -> wgpu::RenderPipeline {
+    let options = || wgpu::PipelineCompilationOptions { constants: desc.constants, ..Default::default() };
+    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some(desc.label),
+        layout: Some(&layouts.surface),
+        vertex: wgpu::VertexState {
+            module: desc.module,
+            entry_point: Some(desc.vertex),
+            compilation_options: options(),
+            buffers: &vertex_buffers(),
+        },
+        primitive: wgpu::PrimitiveState { cull_mode: desc.cull, ..Default::default() },
+        depth_stencil: desc.depth.clone(),
+        multisample: wgpu::MultisampleState { count: desc.samples, ..Default::default() },
+        fragment: desc.fragment.map(|entry| wgpu::FragmentState {
+            module: desc.module,
+            entry_point: Some(entry),
+            compilation_options: options(),
+            targets: desc.targets,
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
 }
 
 /// What differs between the pipelines that draw surfaces into the colour target.
@@ -397,36 +461,51 @@ pub(crate) fn color_pipeline(
     output: Output,
     desc: &ColorPipeline<'_>,
 ) -> wgpu::RenderPipeline {
-    let options = || wgpu::PipelineCompilationOptions { constants: desc.constants, ..Default::default() };
-    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some(desc.label),
-        layout: Some(&layouts.surface),
-        vertex: wgpu::VertexState {
+    let depth = wgpu::DepthStencilState {
+        format: color_depth_format(gpu),
+        stencil: desc.mark.stencil(),
+        ..depth_state(desc.write_depth)
+    };
+    surface_pipeline(
+        gpu,
+        layouts,
+        &SurfacePipeline {
+            label: desc.label,
             module: desc.module,
-            entry_point: Some("vs_main"),
-            compilation_options: options(),
-            buffers: &vertex_buffers(),
-        },
-        primitive: wgpu::PrimitiveState { cull_mode: desc.cull, ..Default::default() },
-        depth_stencil: Some(wgpu::DepthStencilState {
-            format: color_depth_format(gpu),
-            stencil: desc.mark.stencil(),
-            ..depth_state(desc.write_depth)
-        }),
-        multisample: wgpu::MultisampleState { count: output.samples, ..Default::default() },
-        fragment: Some(wgpu::FragmentState {
-            module: desc.module,
-            entry_point: Some(desc.fragment),
-            compilation_options: options(),
+            vertex: "vs_main",
+            fragment: Some(desc.fragment),
+            constants: desc.constants,
+            cull: desc.cull,
+            depth: Some(depth),
+            samples: output.samples,
             targets: &[Some(wgpu::ColorTargetState {
                 format: output.format,
                 blend: desc.blend.then_some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
                 write_mask: wgpu::ColorWrites::ALL,
             })],
-        }),
-        multiview_mask: None,
-        cache: None,
-    })
+        },
+    )
+}
+
+/// Adds to what is there.
+pub(crate) const ADD: wgpu::BlendState = {
+    let add = wgpu::BlendComponent {
+        src_factor: wgpu::BlendFactor::One,
+        dst_factor: wgpu::BlendFactor::One,
+        operation: wgpu::BlendOperation::Add,
+    };
+    wgpu::BlendState { color: add, alpha: add }
+};
+
+/// Depth test of maps that are drawn from a light.
+pub(crate) fn map_depth_state(slope_scale: f32) -> wgpu::DepthStencilState {
+    wgpu::DepthStencilState {
+        format: DEPTH_FORMAT,
+        depth_write_enabled: Some(true),
+        depth_compare: Some(wgpu::CompareFunction::Less),
+        stencil: wgpu::StencilState::default(),
+        bias: wgpu::DepthBiasState { constant: 0, slope_scale, clamp: 0.0 },
+    }
 }
 
 /// Reverse-Z depth test.

@@ -2,24 +2,12 @@
 
 use std::collections::HashMap;
 
-use bytemuck::{Pod, Zeroable};
-
 use super::encode_constant;
 use crate::{
     Gpu,
-    render::{Background, Output, shaders, targets},
-    scene::{Post, ToneCurve},
+    render::{Background, Output, shaders, targets, uniforms::PostUniform},
+    scene::Post,
 };
-
-/// `PostUniform` of `wgsl/pass/post.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
-pub struct PostUniform {
-    pub background: [f32; 4],
-    pub bloom: f32,
-    pub tone: u32,
-    pub padding: [u32; 2],
-}
 
 /// Its pipelines, by whether edges are smoothed.
 #[derive(Debug)]
@@ -91,23 +79,7 @@ impl PostPass {
         inputs: &PostInputs<'_>,
         timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
     ) {
-        let background = match inputs.background {
-            Background::Transparent => [0.0; 4],
-            Background::Color(srgb) => {
-                let [r, g, b] = srgb.to_linear().0;
-                [r, g, b, 1.0]
-            }
-        };
-        let uniform = PostUniform {
-            background,
-            bloom: inputs.post.bloom.map_or(0.0, |b| b.strength),
-            tone: match inputs.post.tone {
-                ToneCurve::None => 0,
-                ToneCurve::Filmic => 1,
-                ToneCurve::Neutral => 2,
-            },
-            padding: [0; 2],
-        };
+        let uniform = PostUniform::new(inputs.post, inputs.background);
         gpu.queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&uniform));
         targets::draw_picture(encoder, "post", inputs.target, true, inputs.pipeline, inputs.group, timestamps);
     }

@@ -2,21 +2,24 @@
 
 use std::collections::HashMap;
 
-use super::{SurfaceFlags, depth_state, surface_cull, vertex_buffers};
+use super::{SurfaceFlags, SurfacePipeline, depth_state, surface_cull, surface_pipeline};
 use crate::{
     Gpu,
-    material::{AlphaMode, Material},
+    material::Material,
     render::{Layouts, draw_list, shaders, targets::PrepassTargets, upload::GpuScene},
 };
 
 /// Format of the world normal (octahedral, two halves of a word) and the part index + 1.
 pub(crate) const SURFACES_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rg32Uint;
 
+const SURFACES: wgpu::ColorTargetState =
+    wgpu::ColorTargetState { format: SURFACES_FORMAT, blend: None, write_mask: wgpu::ColorWrites::ALL };
+
 /// Pipelines by cut-out, culling and targets.
 #[derive(Debug)]
 pub(crate) struct PrepassPass {
     module: wgpu::ShaderModule,
-    pipelines: HashMap<(SurfaceFlags, bool, bool, bool), wgpu::RenderPipeline>,
+    pipelines: HashMap<(Option<SurfaceFlags>, bool, bool), wgpu::RenderPipeline>,
 }
 
 /// What the pass reads and writes.
@@ -44,49 +47,27 @@ impl PrepassPass {
         material: &Material,
         depth_only: bool,
     ) -> wgpu::RenderPipeline {
-        let alpha_test = material.alpha.mode != AlphaMode::Opaque || flags.dissolve || flags.dither_fade;
-        // Without a cut-out nothing is sampled: one pipeline serves all.
-        let flags = if alpha_test {
-            SurfaceFlags { hdr: false, ..flags }
-        } else {
-            SurfaceFlags::default()
-        };
+        let cut = flags.cut(material);
         let make = || {
-            let mut constants = flags.constants();
-            constants.push(("ALPHA_TEST", f64::from(u8::from(alpha_test))));
-            let options = || wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
-            let (entry_point, targets) = if depth_only {
-                ("fs_depth", &[] as &[Option<wgpu::ColorTargetState>])
-            } else {
-                ("fs_main", &[Some(SURFACES_FORMAT.into())] as _)
+            let (vertex, fragment) = match (depth_only, cut.is_some()) {
+                (true, false) => ("vs_depth", None),
+                (true, true) => ("vs_main", Some("fs_depth")),
+                (false, _) => ("vs_main", Some("fs_main")),
             };
-            gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-                label: Some("prepass"),
-                layout: Some(&layouts.surface),
-                vertex: wgpu::VertexState {
-                    module: &self.module,
-                    entry_point: Some(if depth_only && !alpha_test {
-                        "vs_depth"
-                    } else {
-                        "vs_main"
-                    }),
-                    compilation_options: options(),
-                    buffers: &vertex_buffers(),
-                },
-                primitive: wgpu::PrimitiveState { cull_mode: surface_cull(material), ..Default::default() },
-                depth_stencil: Some(depth_state(true)),
-                multisample: wgpu::MultisampleState::default(),
-                fragment: (alpha_test || !depth_only).then(|| wgpu::FragmentState {
-                    module: &self.module,
-                    entry_point: Some(entry_point),
-                    compilation_options: options(),
-                    targets,
-                }),
-                multiview_mask: None,
-                cache: None,
-            })
+            let desc = SurfacePipeline {
+                label: "prepass",
+                module: &self.module,
+                vertex,
+                fragment,
+                constants: &SurfaceFlags::cut_constants(cut),
+                cull: surface_cull(material),
+                depth: Some(depth_state(true)),
+                samples: 1,
+                targets: if depth_only { &[] } else { &[Some(SURFACES)] },
+            };
+            surface_pipeline(gpu, layouts, &desc)
         };
-        self.pipelines.entry((flags, alpha_test, material.double_sided, depth_only)).or_insert_with(make).clone()
+        self.pipelines.entry((cut, material.double_sided, depth_only)).or_insert_with(make).clone()
     }
 
     /// Draws surfaces.

@@ -4,10 +4,10 @@ use std::collections::HashMap;
 
 use glam::Vec3;
 
-use super::{DEPTH_FORMAT, SurfaceFlags, vertex_buffers};
+use super::{DEPTH_FORMAT, SurfaceFlags, SurfacePipeline, map_depth_state, surface_pipeline};
 use crate::{
     Gpu,
-    material::{AlphaMode, Material},
+    material::Material,
     render::{Layouts, draw_list, shaders, upload::GpuScene},
     scene::{MOST_SHADOWED, SelfShadow},
 };
@@ -16,7 +16,7 @@ use crate::{
 #[derive(Debug)]
 pub(crate) struct ShadowPass {
     module: wgpu::ShaderModule,
-    pipelines: HashMap<(SurfaceFlags, bool), wgpu::RenderPipeline>,
+    pipelines: HashMap<Option<SurfaceFlags>, wgpu::RenderPipeline>,
 }
 
 /// The maps of a scene's characters, a layer for each.
@@ -145,48 +145,24 @@ impl ShadowPass {
         flags: SurfaceFlags,
         material: &Material,
     ) -> wgpu::RenderPipeline {
-        let alpha_test = material.alpha.mode != AlphaMode::Opaque || flags.dissolve;
-        // Without a cut-out nothing is sampled: one pipeline serves all.
-        let flags = if alpha_test {
-            SurfaceFlags { hdr: false, ..flags }
-        } else {
-            SurfaceFlags::default()
-        };
+        let cut = SurfaceFlags { dither_fade: false, ..flags }.cut(material);
         let make = || {
-            let mut constants = flags.constants();
-            constants.push(("ALPHA_TEST", f64::from(u8::from(alpha_test))));
-            let options = || wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
-            gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-                label: Some("shadow"),
-                layout: Some(&layouts.surface),
-                vertex: wgpu::VertexState {
-                    module: &self.module,
-                    entry_point: Some("vs_main"),
-                    compilation_options: options(),
-                    buffers: &vertex_buffers(),
-                },
+            let desc = SurfacePipeline {
+                label: "shadow",
+                module: &self.module,
+                vertex: "vs_main",
+                fragment: cut.map(|_| "fs_main"),
+                constants: &SurfaceFlags::cut_constants(cut),
                 // Cards have no back.
-                primitive: wgpu::PrimitiveState::default(),
-                depth_stencil: Some(wgpu::DepthStencilState {
-                    format: DEPTH_FORMAT,
-                    depth_write_enabled: Some(true),
-                    depth_compare: Some(wgpu::CompareFunction::Less),
-                    stencil: wgpu::StencilState::default(),
-                    // Surfaces along the light, by their own slope.
-                    bias: wgpu::DepthBiasState { constant: 0, slope_scale: 1.5, clamp: 0.0 },
-                }),
-                multisample: wgpu::MultisampleState::default(),
-                fragment: alpha_test.then(|| wgpu::FragmentState {
-                    module: &self.module,
-                    entry_point: Some("fs_main"),
-                    compilation_options: options(),
-                    targets: &[],
-                }),
-                multiview_mask: None,
-                cache: None,
-            })
+                cull: None,
+                // Surfaces along the light are moved by their own slope.
+                depth: Some(map_depth_state(1.5)),
+                samples: 1,
+                targets: &[],
+            };
+            surface_pipeline(gpu, layouts, &desc)
         };
-        self.pipelines.entry((flags, alpha_test)).or_insert_with(make).clone()
+        self.pipelines.entry(cut).or_insert_with(make).clone()
     }
 
     /// Draws each character that has a map into its own.
