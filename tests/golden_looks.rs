@@ -176,30 +176,31 @@ fn diamonds() {
     check("diamond", &rows);
 }
 
-/// Fire over a period, orange and blue, over a dark and a light background.
+/// Fire over a period, orange and blue, over a dark and a light background; one that nobody drew a shape for.
 #[test]
 fn fires() {
     let gpu = gpu();
-    let rows: Vec<Image> = [(Fire::default(), [0x28; 3]), (Fire::blue(), [0xd0; 3])]
-        .into_iter()
-        .map(|(fire, background)| {
-            let mut flame = scene(vec![(square([0.0, 0.0], 0.5, 0.0), Material::default())]);
-            let heat = texture(&mut flame, 64, 64, |x, y| {
-                let (u, v) = ((x as f32 / 63.0 - 0.5).abs(), y as f32 / 63.0);
-                let half = 0.36 * v.powf(0.8) * (1.0 - v.powi(6));
-                [(((half - u) / 0.3).clamp(0.0, 1.0) * 255.0) as u8; 4]
-            });
-            flame.materials[0] = Material {
-                alpha: Alpha { mode: AlphaMode::Blend, ..Alpha::default() },
-                fire: Some(Fire { heat, ..fire }),
-                ..Material::default()
-            };
-            sweep(&gpu, &flame, |view, i| {
-                view.time_s = i as f32 * 0.4;
-                view.background = Background::Color(Srgb(background));
+    let rows: Vec<Image> =
+        [(Fire::default(), [0x28; 3], true), (Fire::blue(), [0xd0; 3], true), (Fire::default(), [0x28; 3], false)]
+            .into_iter()
+            .map(|(fire, background, is_drawn)| {
+                let mut flame = scene(vec![(square([0.0, 0.0], 0.5, 0.0), Material::default())]);
+                let heat = texture(&mut flame, 64, 64, |x, y| {
+                    let (u, v) = ((x as f32 / 63.0 - 0.5).abs(), y as f32 / 63.0);
+                    let half = 0.36 * v.powf(0.8) * (1.0 - v.powi(6));
+                    [(((half - u) / 0.3).clamp(0.0, 1.0) * 255.0) as u8; 4]
+                });
+                flame.materials[0] = Material {
+                    alpha: Alpha { mode: AlphaMode::Blend, ..Alpha::default() },
+                    fire: Some(Fire { heat: is_drawn.then_some(heat), ..fire }),
+                    ..Material::default()
+                };
+                sweep(&gpu, &flame, |view, i| {
+                    view.time_s = i as f32 * 0.4;
+                    view.background = Background::Color(Srgb(background));
+                })
             })
-        })
-        .collect();
+            .collect();
     check("fire", &rows);
 }
 
@@ -275,7 +276,7 @@ fn inner_lines() {
 fn vanishing() {
     let gpu = gpu();
     let burnt = beside(&[0.0f32, 0.25, 0.5, 0.75, 0.95].map(|amount| {
-        let dissolve = Some(Dissolve { amount, ..Dissolve::default() });
+        let dissolve = Some(Dissolve { amount, cell_m: 0.2, ..Dissolve::default() });
         let outline = Some(Outline { width: OutlineWidth::World { metres: 0.015 }, ..Outline::default() });
         averaged(&support::render(&gpu, &ball(Material { dissolve, outline, ..two_tone() }), &panel_view()))
     }));
@@ -312,7 +313,7 @@ fn overlays() {
         Decal { middle: [0.5, 0.5], size: [0.12, 0.24], ..Decal::default() },
         Decal { middle: [0.6, 0.36], size: [0.08, 0.16], rotation_rad: 0.6, multiplies: true, ..Decal::default() },
     ];
-    marked.materials[0].decals = Some(Decals { map, placed });
+    marked.materials[0].decals = Some(Decals { map: Some(map), placed });
     rows.push(sweep(&gpu, &marked, |_, _| ()));
     check("overlays", &rows);
 }

@@ -274,6 +274,7 @@ fn presets_stand_for_their_numbers_and_may_be_changed() {
         [material.Hair]
         gem = { preset = "jade", depth_mm = 4 }
         [material.Dress]
+        alpha = { mode = "blend" }
         fire = "blue"
         shaped_highlight = { preset = "square", rotate_deg = 90 }
     "#;
@@ -289,9 +290,41 @@ fn presets_stand_for_their_numbers_and_may_be_changed() {
     for (text, words) in [
         ("[material.Face]\ngem = \"rubby\"", &["preset of gem", "rubby", "ruby"][..]),
         ("[material.Face]\ngem = { preset = 3 }", &["gem.preset"]),
+        ("[material.Face]\nfire = \"blue\"", &["material.\"Face\"", "fire", "blend"]),
+        ("[material.Face]\ndecals = { placed = [{ middle = [0.2, 0.3] }] }", &["decals", "map"]),
+        ("[material.Face]\ndecals = { placed = [{ size_deg = 3 }] }", &["size_rad"]),
         ("[post]\ntone = \"film\"", &["post", "filmic"]),
     ] {
         let error = apply(text, &mut doll()).expect_err("an error");
         assert!(words.iter().all(|w| error.contains(w)), "{error}");
     }
+}
+
+/// Fire keeps the shape that the file authored, and decals are read with their units, their colours and their sheet.
+#[test]
+fn fire_keeps_its_shape_and_decals_are_placed() {
+    let folder = folder("decals");
+    let sheet = folder.join("sheet.png");
+    image::ImageBuffer::from_pixel(2, 2, image::Rgba([255u8, 0, 0, 128])).save(&sheet).expect("a picture");
+    let mut scene = doll();
+    let heat = hikage::material::TextureRef { texture: 7, ..Default::default() };
+    scene.materials[1].authored.heat = Some(heat);
+    let text = r##"
+        base = "plain"
+        [material.Face.decals]
+        map = "sheet.png"
+        placed = [{ middle = [0.2, 0.3], rotation_deg = 90, color = "#ff0000" }, { size = [0.5, 0.5] }]
+        [material.Hair]
+        alpha = { mode = "blend" }
+        fire = { preset = "blue", cells = 6 }
+    "##;
+    apply_at(&folder.join("girl.look.toml"), text, &mut scene).expect("a good look");
+    let decals = scene.materials[0].decals.as_ref().expect("decals");
+    assert_eq!(decals.map.map(|m| m.texture), Some(scene.textures.len() - 1));
+    let [first, second] = decals.placed.as_slice() else { panic!("two decals: {decals:?}") };
+    assert!((first.rotation_rad - std::f32::consts::FRAC_PI_2).abs() < 1e-6 && first.middle == [0.2, 0.3]);
+    assert_eq!((first.color, second.color), ([1.0, 0.0, 0.0, 1.0], [1.0; 4]));
+    let fire = scene.materials[1].fire.expect("fire");
+    assert_eq!((fire.heat, fire.cells), (Some(heat), 6));
+    assert_eq!(fire.colors, hikage::material::Fire::blue().colors);
 }

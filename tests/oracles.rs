@@ -714,21 +714,37 @@ fn stones_refract_mirror_and_absorb() {
         .iter()
         .flat_map(|ior| (0..=50).map(|i| vec![*ior, i as f32 / 50.0]))
         .collect();
-    let body = "
-        output[out] = fresnel(input[base + 1u], input[base]);
-        output[out + 1u] = transmitted(input[base + 1u], input[base]);";
-    for (row, found) in rows.iter().zip(run(&["gem"], body, &rows, 2)) {
-        assert!((found[0] + found[1] - 1.0).abs() < 1e-6 && (0.0..=1.000_01).contains(&found[0]), "{row:?}: {found:?}");
+    let body = "output[out] = fresnel(input[base + 1u], input[base]);";
+    for (row, found) in rows.iter().zip(run(&["gem"], body, &rows, 1)) {
+        let through = transmittance(f64::from(row[1]), f64::from(row[0]));
+        let mirrored = f64::from(found[0]);
         let sin = (1.0 - row[1] * row[1]).sqrt();
-        // Away from the very edge of the critical angle.
-        if sin > row[0] + 1e-3 {
+        // Away from the very edge of the critical angle, where the share rises without bound.
+        if (sin - row[0]).abs() < 1e-3 {
+            continue;
+        }
+        assert!((mirrored + through - 1.0).abs() < 2e-5 && (0.0..=1.000_01).contains(&mirrored), "{row:?}: {found:?}");
+        if sin > row[0] {
             assert_eq!(found[0], 1.0, "{row:?} is past the critical angle");
         }
     }
 }
 
-/// Rays in a brilliant keep their light or share it with what leaves: never more than 1; directions stay unit; equal indices
-/// leave together, other ones apart.
+/// Share of light that goes through from index 1 into `n`, by the amplitudes that are let through and the beam's change in
+/// width (Fresnel), both polarisations alike.
+fn transmittance(cos_i: f64, n: f64) -> f64 {
+    let sin_sq = (1.0 - cos_i * cos_i) / (n * n);
+    if sin_sq >= 1.0 || cos_i == 0.0 {
+        return 0.0;
+    }
+    let cos_t = (1.0 - sin_sq).sqrt();
+    let s = 2.0 * cos_i / (cos_i + n * cos_t);
+    let p = 2.0 * cos_i / (n * cos_i + cos_t);
+    n * cos_t / cos_i * 0.5 * (s * s + p * p)
+}
+
+/// Rays in a brilliant keep their light or share it with what leaves: never more than 1; directions stay unit; a
+/// stone that is turned by half is the same stone, and other indices leave apart.
 #[test]
 fn rays_in_a_diamond_leave_with_what_they_brought() {
     let rows: Vec<Vec<f32>> = (0..200)
@@ -742,16 +758,19 @@ fn rays_in_a_diamond_leave_with_what_they_brought() {
         let start = vec3f(input[base], input[base + 1u], 0.2);
         let d = normalize(vec3f(input[base + 2u], input[base + 3u], -1.0));
         let one = diamond_path(start, d, 2.417, 3u, 8.0);
-        let same = diamond_path(start, d, 2.417, 3u, 8.0);
+        let turned = diamond_path(start * vec3f(-1.0, -1.0, 1.0), d * vec3f(-1.0, -1.0, 1.0), 2.417, 3u, 8.0);
         let other = diamond_path(start, d, 2.44, 3u, 8.0);
         output[out] = one.share;
         output[out + 1u] = length(one.direction);
-        output[out + 2u] = distance(one.direction, same.direction);
+        output[out + 2u] = distance(one.direction, turned.direction * vec3f(-1.0, -1.0, 1.0));
         output[out + 3u] = distance(one.direction, other.direction);";
     let found = run(&["gem", "diamond"], body, &rows, 4);
     for (row, f) in rows.iter().zip(&found) {
-        assert!((0.0..=1.000_01).contains(&f[0]) && (f[1] - 1.0).abs() < 1e-3 && f[2] == 0.0, "{row:?}: {f:?}");
+        assert!((0.0..=1.000_01).contains(&f[0]) && (f[1] - 1.0).abs() < 1e-3, "{row:?}: {f:?}");
     }
+    // Where two facets are as near as each other either may be taken.
+    let symmetric = found.iter().filter(|f| f[2] < 1e-3).count();
+    assert!(symmetric > 190, "{symmetric} of 200 rays go the same way in a stone that is turned by half");
     let apart = found.iter().filter(|f| f[3] > 1e-3).count();
     assert!(apart > 40, "{apart} of 200 rays are dispersed");
     let bright = found.iter().filter(|f| f[0] > 0.5).count();
@@ -832,6 +851,17 @@ fn surfaces_vanish_from_whole_to_nothing() {
     let mut found: Vec<f32> = run(&["noise", "dissolve"], body, &rows, 1).concat();
     found.sort_by(f32::total_cmp);
     assert!(found.iter().enumerate().all(|(i, t)| (t - (i as f32 + 0.5) / 64.0).abs() < 1e-6), "{found:?}");
+    // Of the samples of 8 x 8 pixels as many are left as should be, and of each of the four alike.
+    for left in [0.0f32, 0.125, 0.3, 0.5, 0.9, 1.0] {
+        let rows: Vec<Vec<f32>> = (0..64).map(|i| vec![(i % 8) as f32, (i / 8) as f32, left]).collect();
+        let body =
+            "output[out] = f32(dither_samples(input[base + 2u], vec2u(u32(input[base]), u32(input[base + 1u]))));";
+        let found = run(&["noise", "dissolve"], body, &rows, 1);
+        let counts = [0, 1, 2, 3].map(|bit| found.iter().filter(|f| f[0] as u32 >> bit & 1 == 1).count());
+        let share = counts.iter().sum::<usize>() as f32 / 256.0;
+        assert!((share - left).abs() < 1.0 / 128.0, "{share} of {left}");
+        assert!(counts.iter().all(|c| (*c as f32 / 64.0 - left).abs() < 0.13), "{counts:?} of {left}");
+    }
 }
 
 /// A stocking covers its share face on, more aslant, and all at the contour; a blink begins at its peak and reaches its low.

@@ -23,6 +23,7 @@ pub(super) fn apply(scene: &mut Scene, painted: Option<&Sides>) {
     round_hair(scene);
     hair(scene);
     faces(scene, painted);
+    body_rims(scene);
     self_shadow(scene);
     eyes(scene);
     for material in materials_of(scene, Role::Skin) {
@@ -140,6 +141,20 @@ fn hair(scene: &mut Scene) {
     hair_band::add(scene, &bare);
 }
 
+/// Rims of the body: warm on skin, in the cloth's own colour on clothes; an arm before the chest is no contour.
+fn body_rims(scene: &mut Scene) {
+    let rim = DepthRim { threshold_m: 0.15, width_px: 3.0, ..DepthRim::default() };
+    let skin = DepthRim { color: [0.6, 0.5, 0.44], strength: 0.5, ..rim };
+    let cloth = DepthRim { tint: 0.85, strength: 0.8, ..rim };
+    let faces = materials_of(scene, Role::Face);
+    for (role, rim) in [(Role::Cloth, cloth), (Role::Skin, skin)] {
+        for index in materials_of(scene, role).difference(&faces) {
+            let material = &mut scene.materials[*index];
+            material.depth_rim = (material.alpha.mode != AlphaMode::Blend).then_some(rim);
+        }
+    }
+}
+
 fn faces(scene: &mut Scene, painted: Option<&Sides>) {
     for index in materials_of(scene, Role::Face).into_iter().take(MOST_FACES) {
         let map = face_map(scene, index).map(|mesh| match painted {
@@ -150,7 +165,13 @@ fn faces(scene: &mut Scene, painted: Option<&Sides>) {
         let material = &mut scene.materials[index];
         material.bangs_shadow = Some(BangsShadow { color: shade, ..BangsShadow::default() });
         material.transition = Some(Transition::default());
-        material.depth_rim = Some(DepthRim { strength: 0.5, threshold_m: 0.15, width_px: 3.0, ..DepthRim::default() });
+        material.depth_rim = Some(DepthRim {
+            color: [0.6, 0.5, 0.44],
+            strength: 0.5,
+            threshold_m: 0.15,
+            width_px: 3.0,
+            ..DepthRim::default()
+        });
         material.highlight = material.authored.highlight.map(|map| Highlight {
             map,
             strength: 0.9,
@@ -209,8 +230,15 @@ fn substances(scene: &mut Scene) {
                     Some(ShapedHighlight { map: highlight_shape, matcap_mix: 0.55, ..ShapedHighlight::default() });
                 material.glow = Some(Glow { emission: 1.0, highlight: 0.5 });
             }
-            Substance::Amber => material.gem = stone(Gem::amber()),
-            Substance::Ruby => material.gem = stone(Gem::ruby()),
+            Substance::Amber => {
+                material.gem = stone(Gem::amber());
+                material.sparkle = Some(Sparkle::dust());
+            }
+            Substance::Ruby => {
+                material.gem = stone(Gem::ruby());
+                material.sparkle = Some(Sparkle::dust());
+            }
+            // Milk hides what would flash.
             Substance::Jade => material.gem = stone(Gem::jade()),
             Substance::Diamond => {
                 material.diamond = Some(Diamond::default());
@@ -218,7 +246,7 @@ fn substances(scene: &mut Scene) {
                 material.glow = Some(Glow { emission: 1.0, highlight: 1.0 });
             }
             Substance::Fire => {
-                material.fire = heat.map(|heat| Fire { heat, ..Fire::default() });
+                material.fire = Some(Fire { heat, ..Fire::default() });
                 material.glow = Some(Glow { emission: 0.6, ..Glow::default() });
             }
             Substance::Fluff => {

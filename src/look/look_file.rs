@@ -14,6 +14,7 @@ use super::{
 };
 use crate::color::LinearRgb;
 use crate::import::{Limits, image};
+use crate::material::{AlphaMode, Material};
 use crate::scene::{Ambient, DirectionalLight, Image, Lights, Role, Sampler, Scene, Texture, Wrap};
 use crate::sdf::{FaceLayout, FaceMap, Texels};
 use crate::{Error, Result};
@@ -296,7 +297,18 @@ impl LookFile {
         presets::expand(&mut over).map_err(|message| self.fault(pointer, message))?;
         self.textures(scene, &mut over, "", pointer)?;
         units(&mut over, false).map_err(|message| self.fault(pointer, message))?;
-        scene.materials[material] = self.merged(&scene.materials[material], &over, pointer)?;
+        let mut changed: Material = self.merged(&scene.materials[material], &over, pointer)?;
+        if let Some(fire) = &mut changed.fire {
+            fire.heat = fire.heat.or(changed.authored.heat);
+            if over.contains_key("fire") && changed.alpha.mode != AlphaMode::Blend {
+                let message = "fire: the material is not blended and would not burn; add alpha = { mode = \"blend\" }";
+                return Err(self.fault(pointer, message.to_owned()));
+            }
+        }
+        if changed.decals.as_ref().is_some_and(|d| d.map.is_none()) {
+            return Err(self.fault(pointer, "decals: there is no map; expected the picture of the sheet".to_owned()));
+        }
+        scene.materials[material] = changed;
         Ok(())
     }
 
@@ -502,7 +514,6 @@ fn line_of(text: &str, span: Option<std::ops::Range<usize>>) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::material::Material;
 
     #[test]
     fn a_material_comes_back_from_its_table() {

@@ -11,34 +11,20 @@ fn presets(section: &str) -> Option<Vec<(&'static str, Table)>> {
     fn named<T: Serialize>(list: &[(&'static str, T)]) -> Vec<(&'static str, Table)> {
         list.iter().map(|(name, value)| (*name, Table::try_from(value).unwrap_or_default())).collect()
     }
-    let shape = ShapedHighlight::default();
     Some(match section {
         "gem" => named(&[("amber", Gem::amber()), ("ruby", Gem::ruby()), ("jade", Gem::jade())]),
-        "diamond" => named(&[
-            ("brilliant", Diamond::default()),
-            ("glass", Diamond { ior: [1.51, 1.52, 1.53], bounces: 2, brilliance: 1.2, ..Diamond::default() }),
-        ]),
+        "diamond" => named(&[("brilliant", Diamond::default()), ("glass", Diamond::glass())]),
         "fire" => named(&[("orange", Fire::default()), ("blue", Fire::blue())]),
-        "fluff" => named(&[
-            ("trim", Fluff::default()),
-            ("plush", Fluff { length_m: 0.003, density: 260.0, shells: 10, gravity_m: 0.0003, ..Fluff::default() }),
-            ("long", Fluff { length_m: 0.015, density: 110.0, shells: 24, gravity_m: 0.006, ..Fluff::default() }),
-        ]),
+        "fluff" => named(&[("trim", Fluff::default()), ("plush", Fluff::plush()), ("long", Fluff::long())]),
         "shaped_highlight" => named(&[
-            ("round", shape),
-            ("square", ShapedHighlight { square: 1.0, rotate_rad: 0.4, ..shape }),
-            ("window", ShapedHighlight { square: 1.0, split: [0.05, 0.05], size_rad: 0.2, ..shape }),
-            ("band", ShapedHighlight { squash: 0.85, split: [0.0, 0.06], rotate_rad: 0.3, ..shape }),
-            ("brushed", ShapedHighlight { anisotropy: 0.9, size_rad: 0.14, ..shape }),
+            ("round", ShapedHighlight::default()),
+            ("square", ShapedHighlight::square()),
+            ("window", ShapedHighlight::window()),
+            ("strokes", ShapedHighlight::strokes()),
+            ("brushed", ShapedHighlight::brushed()),
         ]),
-        "sparkle" => named(&[
-            ("glitter", Sparkle::default()),
-            ("snow", Sparkle { spacing_px: 12.0, spread: 1.0, size_rad: 0.1, ..Sparkle::default() }),
-        ]),
-        "stocking" => named(&[
-            ("sheer", Stocking { cover: 0.25, ..Stocking::default() }),
-            ("opaque", Stocking { cover: 0.8, ..Stocking::default() }),
-        ]),
+        "sparkle" => named(&[("glitter", Sparkle::default()), ("snow", Sparkle::snow()), ("dust", Sparkle::dust())]),
+        "stocking" => named(&[("sheer", Stocking::sheer()), ("opaque", Stocking::opaque())]),
         _ => return None,
     })
 }

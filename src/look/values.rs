@@ -44,6 +44,11 @@ pub(super) fn units(table: &mut Table, with_alpha: bool) -> Result<(), String> {
         }
         match table.get_mut(&key) {
             Some(Value::Table(inner)) => units(inner, key == "base")?,
+            Some(Value::Array(list)) => {
+                for inner in list.iter_mut().filter_map(Value::as_table_mut) {
+                    units(inner, key == "placed")?;
+                }
+            }
             Some(value @ Value::String(_)) if is_color => {
                 let text = value.as_str().unwrap_or_default();
                 let srgb = Srgb::from_hex(text)
@@ -73,6 +78,7 @@ pub(super) fn not_finite(table: &Table) -> Option<String> {
         match value {
             Value::Float(x) => !x.is_finite() || x.abs() > f64::from(f32::MAX),
             Value::Array(list) => list.iter().any(bad),
+            Value::Table(inner) => not_finite(inner).is_some(),
             _ => false,
         }
     }

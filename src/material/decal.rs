@@ -11,8 +11,8 @@ pub const MAX_DECALS: usize = 4;
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Decals {
-    /// The sheet, sRGB with straight alpha. Its UV set is that of the decals. Default: texture 0.
-    pub map: TextureRef,
+    /// The sheet, sRGB with straight alpha. Its UV set is that of the decals. Default: none, and no decals.
+    pub map: Option<TextureRef>,
     /// The decals; later ones lie over earlier ones, and those beyond [`MAX_DECALS`] are not drawn. Default: none.
     pub placed: Vec<Decal>,
 }

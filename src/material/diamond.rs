@@ -28,3 +28,11 @@ impl Default for Diamond {
         Self { ior: [2.41, 2.42, 2.44], bounces: 3, facets: 8, color: [0.9, 0.95, 1.0], brilliance: 2.2 }
     }
 }
+
+impl Diamond {
+    /// Cut glass: less of the light comes back, and whiter.
+    #[must_use]
+    pub fn glass() -> Self {
+        Self { ior: [1.51, 1.52, 1.53], bounces: 2, brilliance: 1.2, ..Self::default() }
+    }
+}

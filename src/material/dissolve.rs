@@ -9,8 +9,9 @@ use serde::{Deserialize, Serialize};
 pub struct Dissolve {
     /// How much is gone: 0 nothing, 1 all. Range 0..1. Default: 0.
     pub amount: f32,
-    /// Cells of noise across the texture coordinates. Range 1..256. Default: 10.
-    pub cells: u32,
+    /// Size of a cell of noise on the surface at rest, metres: the same on every material, whatever its texture coordinates.
+    /// They have at most 256 cells. Range 0.001..1. Default: 0.03.
+    pub cell_m: f32,
     /// Width of the glowing border, in amount. Range 0..0.5. Default: 0.06.
     pub border: f32,
     /// Colour of the border, linear; above 1 it glows. Range 0..10. Default: (2, 0.6, 0.1).
@@ -19,6 +20,6 @@ pub struct Dissolve {
 
 impl Default for Dissolve {
     fn default() -> Self {
-        Self { amount: 0.0, cells: 10, border: 0.06, color: [2.0, 0.6, 0.1] }
+        Self { amount: 0.0, cell_m: 0.03, border: 0.06, color: [2.0, 0.6, 0.1] }
     }
 }

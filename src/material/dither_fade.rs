@@ -2,12 +2,13 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Leaves pixels out in an even pattern: a surface fades without being sorted, as when the camera comes too near.
-/// A fading surface goes on casting its whole shadow.
+/// Leaves out samples of pixels in an even pattern, or whole pixels where each has one sample: a surface fades without
+/// being sorted, as when the camera comes too near, and nothing behind its own front is seen. Blended materials and fluff
+/// fade by their alpha. A fading surface goes on casting its whole shadow.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct DitherFade {
-    /// Share of pixels that is left. Range 0..1. Default: 1.
+    /// Share that is left. Range 0..1. Default: 1.
     pub opacity: f32,
     /// Distances from the camera at which it is gone and at which it is whole, metres, growing. Range 0... Default: (0, 0).
     pub near_m: [f32; 2],

@@ -11,8 +11,8 @@ use super::TextureRef;
 #[serde(default, deny_unknown_fields)]
 pub struct Fire {
     /// Shape as heat, red channel, linear: 1 in the heart, 0 outside; v grows downwards from the tip. It takes the place of
-    /// a painted highlight. Default: texture 0.
-    pub heat: TextureRef,
+    /// a painted highlight. Default: none, which is one tongue as wide as the texture coordinates.
+    pub heat: Option<TextureRef>,
     /// Colours of the rim, the body and the heart, linear. Range 0..1.
     /// Default: (0.9, 0.07, 0.01), (1, 0.36, 0.03), (1, 0.88, 0.42).
     pub colors: [[f32; 3]; 3],
@@ -39,7 +39,7 @@ pub struct Fire {
 impl Default for Fire {
     fn default() -> Self {
         Self {
-            heat: TextureRef::default(),
+            heat: None,
             colors: [[0.9, 0.07, 0.01], [1.0, 0.36, 0.03], [1.0, 0.88, 0.42]],
             edges: [0.34, 0.62],
             erosion: 0.2,

@@ -46,3 +46,17 @@ impl Default for Fluff {
         }
     }
 }
+
+impl Fluff {
+    /// Velvet and plush.
+    #[must_use]
+    pub fn plush() -> Self {
+        Self { length_m: 0.003, density: 260.0, shells: 10, gravity_m: 0.0003, ruffle: 0.12, ..Self::default() }
+    }
+
+    /// Long hair that hangs.
+    #[must_use]
+    pub fn long() -> Self {
+        Self { length_m: 0.015, density: 110.0, gravity_m: 0.006, ..Self::default() }
+    }
+}

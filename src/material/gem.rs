@@ -19,9 +19,9 @@ pub struct Gem {
     pub color: [f32; 3],
     /// Light that a cloudy body scatters back by itself, in place of what comes through. Range 0..1. Default: 0.12.
     pub cloudiness: f32,
-    /// Strength of the light that is gathered on the side away from the light. Range 0..8. Default: 3.2.
+    /// Strength of the light that is gathered on the side away from the light. Range 0..8. Default: 3.
     pub caustic: f32,
-    /// How closely it is gathered: exponent of the cosine. Range 1..64. Default: 2.5.
+    /// How closely it is gathered: exponent of the cosine. Range 1..64. Default: 1.7.
     pub caustic_focus: f32,
     /// What is enclosed, sRGB with alpha, by the surface's texture coordinates. It takes the place of the detail colour of
     /// fur. Default: none.
@@ -49,8 +49,8 @@ impl Gem {
             depth_m: 0.01,
             color: [0.82, 0.3, 0.04],
             cloudiness: 0.12,
-            caustic: 3.2,
-            caustic_focus: 2.5,
+            caustic: 3.0,
+            caustic_focus: 1.7,
             inclusions: None,
             layers: 3,
             uv_per_m: 45.0,
@@ -63,10 +63,10 @@ impl Gem {
     pub const fn ruby() -> Self {
         Self {
             ior: 1.76,
-            color: [0.86, 0.015, 0.1],
-            cloudiness: 0.1,
-            caustic: 1.8,
-            caustic_focus: 8.0,
+            color: [0.9, 0.012, 0.07],
+            cloudiness: 0.06,
+            caustic: 2.6,
+            caustic_focus: 2.6,
             ..Self::amber()
         }
     }
@@ -78,8 +78,8 @@ impl Gem {
             ior: 1.66,
             color: [0.16, 0.62, 0.3],
             cloudiness: 0.75,
-            caustic: 0.5,
-            caustic_focus: 2.0,
+            caustic: 1.2,
+            caustic_focus: 1.6,
             ..Self::amber()
         }
     }

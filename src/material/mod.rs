@@ -159,7 +159,7 @@ impl Material {
     /// The painted picture of a highlight, of a highlight's shape, or of fire: a material has one.
     pub(crate) fn painted_highlight(&self) -> Option<TextureRef> {
         let shape = || self.shaped_highlight.and_then(|s| s.map);
-        self.fire.filter(|_| self.is_fire()).map(|f| f.heat).or(self.highlight.map(|h| h.map)).or_else(shape)
+        self.fire.filter(|_| self.is_fire()).and_then(|f| f.heat).or(self.highlight.map(|h| h.map)).or_else(shape)
     }
 }
 

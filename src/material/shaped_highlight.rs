@@ -29,7 +29,8 @@ pub struct ShapedHighlight {
     pub rotate_rad: f32,
     /// How far H is squashed along X, which stretches the highlight along it; 0 not at all. Range 0..0.99. Default: 0.
     pub squash: f32,
-    /// Distance by which the halves are split along X and Y. Range 0..1. Default: (0, 0).
+    /// Distance by which the halves are split along X and Y; a gap is left where it is more than their size. Range 0..1.
+    /// Default: (0, 0).
     pub split: [f32; 2],
     /// How far it is squared: 0 round, 1 a square. Range 0..1. Default: 0.
     pub square: f32,
@@ -59,5 +60,31 @@ impl Default for ShapedHighlight {
             anisotropy: 0.0,
             matcap_mix: 0.0,
         }
+    }
+}
+
+impl ShapedHighlight {
+    /// A square on its edge.
+    #[must_use]
+    pub fn square() -> Self {
+        Self { square: 1.0, rotate_rad: 0.4, ..Self::default() }
+    }
+
+    /// The four panes of a window: halves are split farther than they are wide.
+    #[must_use]
+    pub fn window() -> Self {
+        Self { square: 1.0, size_rad: 0.1, split: [0.125, 0.125], rotate_rad: 0.25, ..Self::default() }
+    }
+
+    /// Two slanted strokes.
+    #[must_use]
+    pub fn strokes() -> Self {
+        Self { squash: 0.86, size_rad: 0.05, split: [0.0, 0.09], rotate_rad: 0.9, ..Self::default() }
+    }
+
+    /// Metal that was brushed along the tangent.
+    #[must_use]
+    pub fn brushed() -> Self {
+        Self { anisotropy: 0.9, size_rad: 0.06, ..Self::default() }
     }
 }

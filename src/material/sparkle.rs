@@ -22,3 +22,17 @@ impl Default for Sparkle {
         Self { color: [1.0; 3], spacing_px: 6.0, spread: 0.6, size_rad: 0.2 }
     }
 }
+
+impl Sparkle {
+    /// Snow and frost: sparse, at every angle.
+    #[must_use]
+    pub fn snow() -> Self {
+        Self { spacing_px: 12.0, spread: 1.0, size_rad: 0.1, ..Self::default() }
+    }
+
+    /// What hangs in a clear stone: few, and faint.
+    #[must_use]
+    pub fn dust() -> Self {
+        Self { color: [0.9, 0.8, 0.7], spacing_px: 14.0, spread: 0.8, size_rad: 0.16 }
+    }
+}

@@ -18,3 +18,17 @@ impl Default for Stocking {
         Self { color: [0.02, 0.02, 0.03], cover: 0.55 }
     }
 }
+
+impl Stocking {
+    /// Skin shows through, except where it is seen aslant.
+    #[must_use]
+    pub fn sheer() -> Self {
+        Self { cover: 0.25, ..Self::default() }
+    }
+
+    /// Hardly any skin shows through.
+    #[must_use]
+    pub fn opaque() -> Self {
+        Self { cover: 0.85, ..Self::default() }
+    }
+}

@@ -10,6 +10,7 @@ mod textures;
 #[doc(hidden)]
 pub mod uniforms;
 mod upload;
+mod uv_metric;
 mod view;
 
 use std::time::Duration;

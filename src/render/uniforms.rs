@@ -120,7 +120,8 @@ pub struct MaterialUniform {
     pub second_color: [f32; 3],
     pub highlight_breakup: f32,
     pub depth_rim_tint: f32,
-    pub padding_rim: [f32; 3],
+    pub dissolve_border: f32,
+    pub padding_rim: [f32; 2],
     pub bangs_color: [f32; 3],
     pub bangs_strength: f32,
     pub bangs_edges: [f32; 2],
@@ -198,8 +199,7 @@ pub struct MaterialUniform {
     pub blink_sharpness: f32,
     pub blink_period: f32,
     pub dissolve_amount: f32,
-    pub dissolve_border: f32,
-    pub dissolve_cells: i32,
+    pub dissolve_cells: [i32; 2],
     pub dissolve_color: [f32; 3],
     pub dither_opacity: f32,
     pub dither_near: [f32; 2],
@@ -433,8 +433,8 @@ impl DecalUniform {
 }
 
 impl MaterialUniform {
-    /// Uniform of a material; `face_maps` are those of its scene.
-    pub fn new(material: &Material, face_maps: &[FaceMap]) -> Self {
+    /// Uniform of a material; `face_maps` are those of its scene, `metres_per_uv` those of its surfaces.
+    pub fn new(material: &Material, face_maps: &[FaceMap], metres_per_uv: [f32; 2]) -> Self {
         let toon = match material.shading {
             Shading::Toon(toon) => toon,
             Shading::Unlit => crate::material::Toon::default(),
@@ -529,7 +529,8 @@ impl MaterialUniform {
             second_color: highlight.second_color,
             highlight_breakup: highlight.breakup,
             depth_rim_tint: rim.tint,
-            padding_rim: [0.0; 3],
+            dissolve_border: dissolve.border,
+            padding_rim: [0.0; 2],
             bangs_color: bangs.color,
             bangs_strength: bangs.strength,
             bangs_edges: bangs.edges,
@@ -607,13 +608,12 @@ impl MaterialUniform {
             blink_sharpness: blink.sharpness,
             blink_period: blink.period_s.max(0.05),
             dissolve_amount: dissolve.amount,
-            dissolve_border: dissolve.border,
-            dissolve_cells: dissolve.cells.clamp(1, 256) as i32,
+            dissolve_cells: metres_per_uv.map(|m| (m / dissolve.cell_m.max(1e-4)).round().clamp(1.0, 256.0) as i32),
             dissolve_color: dissolve.color,
             dither_opacity: fade.opacity,
             dither_near: fade.near_m,
             stocking_cover: stocking.cover,
-            decal_set: material.decals.as_ref().map_or(0.0, |d| d.map.uv_set as f32),
+            decal_set: material.decals.as_ref().and_then(|d| d.map).map_or(0.0, |m| m.uv_set as f32),
             stocking_color: stocking.color,
             decal_count: placed.len().min(MAX_DECALS) as u32,
             decals: std::array::from_fn(|i| placed.get(i).map_or_else(DecalUniform::default, DecalUniform::new)),

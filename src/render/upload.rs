@@ -17,6 +17,7 @@ use super::{
     },
     textures::{self, Encoding, TextureSet},
     uniforms::{AffineRows, CharacterUniform, MaterialUniform},
+    uv_metric,
 };
 use crate::{
     Error, Gpu, Result,
@@ -58,6 +59,7 @@ pub struct GpuScene {
     /// Whether a material has inner lines, which read normals and parts.
     pub(crate) has_inner_lines: bool,
     face_maps: Vec<FaceMap>,
+    metres_per_uv: Vec<[f32; 2]>,
     pub(crate) draws: Vec<Draw>,
     pub(crate) transparent_order: Vec<usize>,
     /// Eyes and brows that are seen through hair, the foremost first.
@@ -159,8 +161,10 @@ impl Renderer {
         };
         use wgpu::BufferUsages as U;
         let mut uniforms = vec![0u8; scene.materials.len().max(1) * MATERIAL_STRIDE as usize];
-        for (chunk, material) in uniforms.chunks_exact_mut(MATERIAL_STRIDE as usize).zip(&scene.materials) {
-            let uniform = MaterialUniform::new(material, &scene.face_maps);
+        let metres_per_uv = uv_metric::metres_per_uv(scene);
+        let described = scene.materials.iter().zip(metres_per_uv.iter().copied());
+        for (chunk, (material, metres)) in uniforms.chunks_exact_mut(MATERIAL_STRIDE as usize).zip(described) {
+            let uniform = MaterialUniform::new(material, &scene.face_maps, metres);
             chunk[..size_of::<MaterialUniform>()].copy_from_slice(bytemuck::bytes_of(&uniform));
         }
         let materials = buffer("materials", &uniforms, U::UNIFORM | U::COPY_DST);
@@ -220,6 +224,7 @@ impl Renderer {
             has_inner_lines,
             // The numbers alone: what they point to is on the GPU.
             face_maps: scene.face_maps.iter().map(FaceMap::without_texels).collect(),
+            metres_per_uv,
             transparent_order: Vec::with_capacity(draws.len()),
             through_order: through_order(&draws),
             eyes_through: scene.eyes_through,
@@ -375,7 +380,7 @@ impl GpuScene {
         }
         for index in self.posed_materials.keys().chain(pose.materials.keys()) {
             if let Some(material) = pose.materials.get(index).or_else(|| self.source_materials.get(*index)) {
-                let uniform = MaterialUniform::new(material, &self.face_maps);
+                let uniform = MaterialUniform::new(material, &self.face_maps, self.metres_per_uv[*index]);
                 gpu.queue.write_buffer(&self.materials, *index as u64 * MATERIAL_STRIDE, bytemuck::bytes_of(&uniform));
             }
         }
@@ -556,7 +561,7 @@ fn texture_slots(material: &Material) -> [(Option<usize>, Encoding); TEXTURE_SLO
         (ramps.map(|r| r.warm.texture), Encoding::Srgb),
         (ramps.map(|r| r.cool.texture), Encoding::Srgb),
         (of(material.part_ids()), Encoding::Linear),
-        (material.decals.as_ref().map(|d| d.map.texture), Encoding::Srgb),
+        (material.decals.as_ref().and_then(|d| of(d.map)), Encoding::Srgb),
         (material.depth_rim.and_then(|r| of(r.width_mask)), Encoding::Linear),
     ]
 }

@@ -64,17 +64,19 @@ override SPARKLE: bool = false;
 override GEM: bool = false;
 override GEM_INCLUSIONS: bool = false;
 override DIAMOND: bool = false;
-// Fire.
+// Fire; with a drawn shape.
 override FIRE: bool = false;
+override FIRE_MAP: bool = false;
 // Light of its own that moves; that swells and ebbs.
 override EMISSION_SCROLL: bool = false;
 override EMISSION_BLINK: bool = false;
 // Thin knit; decals.
 override STOCKING: bool = false;
 override DECALS: bool = false;
-// Burns away; fades pixel by pixel.
+// Burns away; fades pixel by pixel; sample by sample.
 override DISSOLVE: bool = false;
 override DITHER_FADE: bool = false;
+override DITHER_SAMPLES: bool = false;
 // A mask of the width of the rim by depth; its colour on the shaded side.
 override RIM_WIDTH: bool = false;
 override RIM_SHADE: bool = false;
@@ -131,12 +133,14 @@ struct SurfaceOptions {
     gem_inclusions: bool,
     diamond: bool,
     fire: bool,
+    fire_map: bool,
     emission_scroll: bool,
     emission_blink: bool,
     stocking: bool,
     decals: bool,
     dissolve: bool,
     dither_fade: bool,
+    dither_samples: bool,
     rim_width: bool,
     rim_shade: bool,
     inner_lines: bool,
@@ -151,7 +155,7 @@ fn surface_options() -> SurfaceOptions {
         HIGHLIGHT_SECOND, HIGHLIGHT_APART, HIGHLIGHT_BREAKUP, LAYERED, CAST_SHADOW, SHADE_RAMP, RAMP_MAPS, RAMP_PARTS,
         SHADE_SHIFT,
         LIGHT_RESPONSE, FUR_DETAIL, FUR_COLOR, DEPTH_RIM, SHAPED_HIGHLIGHT, SHAPED_MAP, SHAPED_BRUSHED, SPARKLE, GEM,
-        GEM_INCLUSIONS, DIAMOND, FIRE, EMISSION_SCROLL, EMISSION_BLINK, STOCKING, DECALS, DISSOLVE, DITHER_FADE, RIM_WIDTH,
+        GEM_INCLUSIONS, DIAMOND, FIRE, FIRE_MAP, EMISSION_SCROLL, EMISSION_BLINK, STOCKING, DECALS, DISSOLVE, DITHER_FADE, DITHER_SAMPLES, RIM_WIDTH,
         RIM_SHADE, INNER_LINES, CHANNEL
     );
 }

@@ -55,6 +55,10 @@ fn shaped_highlight(n: vec3f, view: vec3f, along: vec3f, has_map: bool, is_brush
         let away = highlight_distance(at.x, at.y, material.shaped_square);
         share = highlight_inside(away, material.shaped_size, fwidth(away));
     }
+    if is_brushed {
+        // Where the surface looks along the brush it has no direction.
+        share *= smoothstep(0.25, 0.6, length(axis - n * dot(n, axis)));
+    }
     return select(0.0, share, dot(h, n) > 0.0);
 }
 

@@ -35,11 +35,15 @@ fn gem_surface(p: StonePoint, has_inclusions: bool) -> Stone {
     let r = refract(-p.view, p.normal, 1.0 / material.gem_ior);
     let inside = vec3f(dot(r, p.tangent), dot(r, p.bitangent), dot(r, p.normal));
     let glow = gathered(far_normal(p.normal, r), frame.to_light, material.gem_focus);
-    let around = p.ambient * 0.8 + p.light * 0.28;
+    let around = p.ambient * 0.8 + p.light * 0.4;
     let through = (around + p.light * material.gem_caustic * glow) * absorbed(material.gem_color, inside, 1.0);
-    // Scattered light comes from a little below the surface, and from around the border of light.
+    // Scattered light comes from a little below the surface, and from around the border of light; where it has come far, it
+    // is deeper in colour. Thin borders let it through.
     let wrapped = saturate(dot(p.normal, frame.to_light) * 0.6 + 0.4);
-    let milk = material.gem_color * (p.light * wrapped + p.ambient);
+    let far = pow(max(material.gem_color, vec3f(1e-3)), vec3f(1.7 - 0.7 * wrapped));
+    let thin = pow(1.0 - saturate(dot(p.normal, p.view)), 3.0);
+    let milk = far * (p.light * (max(wrapped, 0.35) + 0.5 * thin) + p.ambient)
+        + material.gem_color * p.light * (0.2 * material.gem_caustic * glow);
     var body = mix(through, milk, material.gem_cloudiness);
     var enclosed = 0.0;
     if has_inclusions {

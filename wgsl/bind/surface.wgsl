@@ -57,7 +57,7 @@ fn shade_surface(options: SurfaceOptions, in: SurfaceInput) -> vec4f {
     let uv = animated_uv(options, in.uv);
     // What a debug channel shows of the looks below.
     var extra = vec3f(0.0);
-    if options.dither_fade && is_dithered_away(in.pixel.xy, in.world_position) {
+    if options.dither_fade && !options.dither_samples && is_dithered_away(in.pixel.xy, in.world_position) {
         discard;
     }
     var burn = 1.0;

@@ -10,6 +10,17 @@ fn fire_noise(uv: vec2f, phase: f32, cells: i32) -> f32 {
     return low * 0.65 + high * 0.35;
 }
 
+// Heat of one tongue over 0..1: a drop with its tip above, 0 at the borders.
+fn fire_shape(uv: vec2f) -> f32 {
+    let up = 1.0 - saturate(uv.y);
+    // Round below, from its widest place on pointed.
+    let below = 1.0 - up / 0.26;
+    let above = saturate((up - 0.26) / 0.74);
+    let half_width = 0.42 * select((1.0 - above) * (1.0 + 0.9 * above), sqrt(max(1.0 - below * below, 0.0)), below > 0.0);
+    let across = abs(uv.x - 0.5) / max(half_width, 1e-3);
+    return saturate(1.3 - 1.3 * across) * (1.0 - 0.45 * up);
+}
+
 // Sideways movement of tongues: none at the foot (v = 1), most at the tip.
 fn fire_sway(uv: vec2f, phase: f32, cells: i32, sway: f32) -> f32 {
     let up = 1.0 - saturate(uv.y);

@@ -13,11 +13,6 @@ fn fresnel(cos_i: f32, ior: f32) -> f32 {
     return 0.5 * (s * s + p * p);
 }
 
-// Share that goes through.
-fn transmitted(cos_i: f32, ior: f32) -> f32 {
-    return 1.0 - fresnel(cos_i, ior);
-}
-
 // Movement along the surface of what lies `depth` below it, in units of the depth; r is the refracted view in the frame of
 // the surface and looks down.
 fn parallax(r: vec3f, depth: f32) -> vec2f {

@@ -3,6 +3,7 @@ import package::bind::frame::frame;
 import package::bind::material::material;
 import package::bind::options::{surface_options, CHANNEL_FLUFF};
 import package::bind::surface::shade_surface;
+import package::bind::vanish::dither_left;
 import package::bind::varying::{Varying, surface_input, surface_varying};
 import package::bind::vertex::VertexInput;
 import package::lib::color::srgb_from_linear;
@@ -47,7 +48,10 @@ fn vs_main(vertex: VertexInput) -> FluffVarying {
 @fragment
 fn fs_main(in: FluffVarying) -> @location(0) vec4f {
     let strand = fluff_strand(in.uv.xy * material.fluff_density);
-    let cover = fluff_cover(strand.w, in.level, material.fluff_softness);
+    var cover = fluff_cover(strand.w, in.level, material.fluff_softness);
+    if surface_options().dither_fade {
+        cover *= dither_left(in.world_position);
+    }
     // Strands catch the light each in its own way: its border has their shape.
     let normal = normalize(in.normal) + strand.xyz * material.fluff_ruffle;
     let place = Varying(

@@ -8,6 +8,7 @@ import package::bind::options::surface_options;
 import package::bind::ramp::part_at;
 import package::bind::surface::{line_source, shade_surface};
 import package::bind::texel::{moved_uv, texture_uv};
+import package::bind::vanish::dithered_samples;
 import package::bind::varying::{Varying, surface_varying, surface_input};
 import package::bind::vertex::{VertexInput, world_direction, world_position};
 import package::lib::color::srgb_from_linear;
@@ -79,8 +80,23 @@ fn vs_main(v: VertexInput) -> Varying {
     return out;
 }
 
+struct DitheredOutput {
+    @location(0) color: vec4f,
+    @builtin(sample_mask) samples: u32,
+}
+
 @fragment
 fn fs_main(in: Varying) -> @location(0) vec4f {
+    return line(in);
+}
+
+// For DITHER_SAMPLES.
+@fragment
+fn fs_dithered(in: Varying) -> DitheredOutput {
+    return DitheredOutput(line(in), dithered_samples(in.clip_position.xy, in.world_position));
+}
+
+fn line(in: Varying) -> vec4f {
     var surface = vec4f(1.0);
     if surface_options().dissolve && material.dissolve_amount > 0.1 {
         // Through holes the hull of the far side would be seen.

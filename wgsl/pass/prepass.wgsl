@@ -2,11 +2,11 @@
 import package::bind::frame::frame;
 import package::bind::options::surface_options;
 import package::bind::texel::surface_cut;
-import package::bind::vanish::is_dithered_away;
+import package::bind::vanish::dither_left;
 import package::bind::vertex::{VertexInput, world_direction, world_position};
 import package::lib::normal::octahedral_from_unit;
 
-// Cut where alpha is below the material's cutoff; blended materials count where they cover half.
+// Cut where alpha is below the material's cutoff; blended and fading materials count where they cover half.
 override ALPHA_TEST: bool = false;
 
 struct PrepassVarying {
@@ -36,7 +36,7 @@ fn cut(in: PrepassVarying) -> bool {
         return false;
     }
     let options = surface_options();
-    if options.dither_fade && is_dithered_away(in.clip_position.xy, in.world_position) {
+    if options.dither_fade && dither_left(in.world_position) < 0.5 {
         return true;
     }
     return surface_cut(options, in.uv, in.color);

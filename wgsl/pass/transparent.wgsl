@@ -2,6 +2,7 @@
 import package::bind::material::material;
 import package::bind::options::surface_options;
 import package::bind::surface::shade_surface;
+import package::bind::vanish::dither_left;
 import package::bind::varying::{Varying, surface_varying, surface_input};
 import package::bind::vertex::VertexInput;
 import package::lib::color::srgb_from_linear;
@@ -20,7 +21,10 @@ fn fs_main(in: Varying, @builtin(front_facing) front_facing: bool) -> @location(
     if ENCODE_SRGB {
         color = srgb_from_linear(color);
     }
-    let alpha = saturate(surface.a);
+    var alpha = saturate(surface.a);
+    if surface_options().dither_fade {
+        alpha *= dither_left(in.world_position);
+    }
     if surface_options().fire {
         // What it adds instead of covering leaves what is behind it.
         return vec4f(color * alpha, alpha * (1.0 - material.fire_additive));

@@ -37,6 +37,8 @@ impl FluffPass {
 
     /// The pipeline for a material, made on first use.
     pub fn pipeline(&mut self, gpu: &Gpu, layouts: &Layouts, flags: SurfaceFlags) -> wgpu::RenderPipeline {
+        // Strands fade by their cover.
+        let flags = SurfaceFlags { dither_samples: flags.dither_fade, ..flags };
         let make = || {
             let mut constants = flags.constants();
             constants.push(encode_constant(flags.output(self.output)));

@@ -37,8 +37,13 @@ impl OpaquePass {
         mark: Mark,
     ) -> wgpu::RenderPipeline {
         // With several samples a cut can cover part of a pixel.
-        let covered = flags.alpha_mask && self.output.samples == 4;
-        let flags = SurfaceFlags { alpha_coverage: covered, ..flags };
+        let has_samples = self.output.samples == 4;
+        let flags = SurfaceFlags {
+            alpha_coverage: flags.alpha_mask && has_samples,
+            dither_samples: flags.dither_fade && has_samples,
+            ..flags
+        };
+        let covered = flags.alpha_coverage || flags.dither_samples;
         let make = || {
             let mut constants = flags.constants();
             constants.push(encode_constant(flags.output(self.output)));

@@ -96,10 +96,11 @@ impl OutlinePass {
         // Black stays black whatever the light.
         let colored = outline.color != [0.0; 3] || driven.colors.contains(&ColorTarget::OutlineColor);
         let mixed = outline.tint.is_none() && outline.lighting_mix > 0.0 && colored;
-        let vanishes = flags.dissolve || flags.dither_fade;
+        let dither_samples = flags.dither_fade && !blend && self.output.samples == 4;
+        let vanishes = flags.dissolve || (flags.dither_fade && !dither_samples);
         let shaded = mixed || vanishes || material.alpha.mode != AlphaMode::Opaque;
         let mut key = OutlineKey {
-            flags: of_line(flags),
+            flags: SurfaceFlags { dither_samples, ..of_line(flags) },
             screen_width,
             width_mask: outline.width_mask.is_some(),
             shaded,
@@ -115,10 +116,11 @@ impl OutlinePass {
         if !shaded && !key.tint {
             // A plain colour needs nothing of the surface but the UVs of its mask: fewer pipelines.
             let SurfaceFlags { uv_transforms, uv_animation, uv_animation_mask, hdr, .. } = flags;
+            let plain = SurfaceFlags { hdr, dither_samples, ..SurfaceFlags::default() };
             key.flags = if key.width_mask {
-                SurfaceFlags { uv_transforms, uv_animation, uv_animation_mask, hdr, ..SurfaceFlags::default() }
+                SurfaceFlags { uv_transforms, uv_animation, uv_animation_mask, ..plain }
             } else {
-                SurfaceFlags { hdr, ..SurfaceFlags::default() }
+                plain
             };
         }
         let make = || {
@@ -144,7 +146,7 @@ impl OutlinePass {
                 &ColorPipeline {
                     label: "outline",
                     module: &self.module,
-                    fragment: "fs_main",
+                    fragment: if dither_samples { "fs_dithered" } else { "fs_main" },
                     constants: &constants,
                     cull: Some(wgpu::Face::Front),
                     blend: key.blend,

@@ -35,6 +35,8 @@ impl TransparentPass {
         flags: SurfaceFlags,
         material: &Material,
     ) -> wgpu::RenderPipeline {
+        // What is blended fades by its alpha.
+        let flags = SurfaceFlags { dither_samples: flags.dither_fade, ..flags };
         let make = || {
             let mut constants = flags.constants();
             constants.push(encode_constant(flags.output(self.output)));

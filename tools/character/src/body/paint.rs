@@ -143,7 +143,6 @@ pub(super) fn metal_matcap() -> Picture {
         color = mix(color, dark, smoothstep(0.1, 0.32, slope) * smoothstep(0.62, 0.4, slope));
         color = mix(color, glow, smoothstep(0.5, 0.72, slope));
         color = mix(color, light, smoothstep(-0.28, -0.36, slope) * smoothstep(-0.72, -0.6, slope));
-        color = mix(color, Vec3::ONE, smoothstep(0.2, 0.12, (p - Vec2::new(-0.3, -0.46)).length()));
         [color.x, color.y, color.z, 1.0]
     })
 }

@@ -4,7 +4,7 @@ use glam::{Vec2, Vec3};
 
 use super::bow::KNOT_Y;
 use super::stone::{PIN, pin_frame};
-use super::{CORD, before_chest};
+use super::{CORD, STONE_STANDS, before_chest};
 use crate::body::shape::torso;
 use crate::loft::{grid, ring_in, row};
 use crate::mesh::Part;
@@ -13,7 +13,7 @@ use crate::skeleton::{Skeleton, Weights, blend};
 /// A surface of revolution: from the back to the front, (radius, height) along `right` × `up`. The texture is seen from
 /// the front, over a disc of the largest radius.
 pub(super) fn lathe(part: &mut Part, center: Vec3, [right, up]: [Vec3; 2], profile: &[[f32; 2]], bone: Weights) {
-    const COLUMNS: usize = 24;
+    const COLUMNS: usize = 32;
     let front = right.cross(up);
     let widest = profile.iter().map(|p| p[0]).fold(0.0, f32::max);
     let rows: Vec<Vec<Vec3>> =
@@ -125,7 +125,7 @@ pub(super) fn cord(skeleton: &Skeleton, [upper, lower]: [usize; 2]) -> Part {
             let y = CORD[0] + (CORD[1] + 0.0035 - CORD[0]) * t;
             // Links: thick and thin by turns.
             let r = if i % 2 == 0 { 0.0009 } else { 0.0014 };
-            ring_in(before_chest(y, 0.006 + 0.0025 * t), Vec3::X * r, Vec3::Z * r, 6)
+            ring_in(before_chest(y, 0.006 + (STONE_STANDS - 0.006) * t), Vec3::X * r, Vec3::Z * r, 6)
         })
         .collect();
     let bone = |p: Vec3| {
@@ -135,7 +135,7 @@ pub(super) fn cord(skeleton: &Skeleton, [upper, lower]: [usize; 2]) -> Part {
     let first = grid(&mut part, &rows, true, Vec2::new, bone);
     part.cap(&row(first, 7, 0, true), Vec2::ZERO, bone(rows[0][0]));
     part.cap(&row(first, 7, steps, false), Vec2::ZERO, blend(&[(lower, 1.0)]));
-    let top = before_chest(CORD[1], 0.0085);
+    let top = before_chest(CORD[1], STONE_STANDS);
     let profile = [[0.0058, -0.0042], [0.0062, -0.0034], [0.0052, -0.0012], [0.0032, 0.0012], [0.0014, 0.0034]];
     // Upwards: Z × X is Y.
     lathe(&mut part, top, [Vec3::Z, Vec3::X], &profile, blend(&[(lower, 1.0)]));

@@ -39,8 +39,8 @@ pub fn add(model: &mut Model) {
 fn pendant_chain(model: &mut Model) -> [usize; 2] {
     let chest = model.skeleton.find("upperChest");
     let first = model.skeleton.add("Pendant_0", chest, before_chest(CORD[0], 0.006));
-    let second = model.skeleton.add("Pendant_1", first, before_chest(CORD[1], 0.0085));
-    let end = model.skeleton.add("Pendant_2", second, before_chest(CORD[1], 0.0085) - Vec3::Y * 0.03);
+    let second = model.skeleton.add("Pendant_1", first, before_chest(CORD[1], STONE_STANDS));
+    let end = model.skeleton.add("Pendant_2", second, before_chest(CORD[1], STONE_STANDS) - Vec3::Y * 0.03);
     model.springs.push(Spring {
         name: "Pendant".to_owned(),
         joints: vec![first, second, end],
@@ -55,6 +55,9 @@ fn pendant_chain(model: &mut Model) -> [usize; 2] {
 
 /// Heights of the cord's upper end and of the stone.
 const CORD: [f32; 2] = [1.232, 1.168];
+
+/// Distance of the stone's axis from the chest: its lines need room behind it.
+const STONE_STANDS: f32 = 0.015;
 
 fn materials(model: &mut Model) {
     let texture = |name, paint| Texture { name, paint, repeat: false };

@@ -2,7 +2,7 @@
 
 use glam::{Vec2, Vec3};
 
-use super::{CORD, before_chest};
+use super::{CORD, STONE_STANDS, before_chest};
 use crate::loft::{grid, ring_in, row, turn};
 use crate::mesh::Part;
 use crate::skeleton::{Skeleton, blend};
@@ -22,7 +22,7 @@ pub(super) fn pin_frame() -> [Vec3; 3] {
 pub(super) fn amber([_, lower]: [usize; 2]) -> Part {
     let mut part = Part::new("Pendant", "Accessory_Amber");
     let bone = blend(&[(lower, 1.0)]);
-    let top = before_chest(CORD[1], 0.0085);
+    let top = before_chest(CORD[1], STONE_STANDS);
     // Depth below the cap and radius.
     let profile: [[f32; 2]; 11] = [
         [0.0025, 0.0042],

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use glam::{Quat, Vec3};
 use hikage::motion::Stance;
 use hikage::picture::{encode_png, write_atomic};
-use hikage::scene::{Framing, HumanBone, Image, Scene};
+use hikage::scene::{Framing, HumanBone, Image, PunctualLight, Scene};
 use hikage::{Background, Gpu, GpuScene, Output, Renderer, View};
 
 use crate::args::LookName;
@@ -31,7 +31,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
     only: Vec<String>,
     /// Height of one panel, pixels.
-    #[arg(long, value_name = "PIXELS", default_value_t = 256, value_parser = clap::value_parser!(u32).range(64..=1024))]
+    #[arg(long, value_name = "PIXELS", default_value_t = 384, value_parser = clap::value_parser!(u32).range(64..=1024))]
     panel: u32,
     /// Adapter, by a part of its name (`hikage adapters`).
     #[arg(long, value_name = "NAME")]
@@ -122,8 +122,14 @@ fn draw_panel(
     let [yaw, pitch] = panel.light_deg.map(f32::to_radians);
     let lights = &mut view.lights;
     lights.directional.to_light = Vec3::new(yaw.sin() * pitch.cos(), pitch.sin(), yaw.cos() * pitch.cos());
+    lights.directional.intensity *= panel.key;
     lights.coolness = panel.coolness;
     lights.punctual.extend(panel.lamp);
+    if let (Some((color, intensity)), Some(hand)) = (panel.flame, scene.bone_node(HumanBone::LeftHand)) {
+        // Off the palm, which it would bleach.
+        let position = scene.world_from_nodes(&pose.locals)[hand].w_axis.truncate() + Vec3::new(0.0, 0.17, 0.07);
+        lights.punctual.push(PunctualLight { position, color, intensity, range: 0.0, spot: None });
+    }
     view.time_s = panel.time_s;
     view.background = Background::Color(panel.background.unwrap_or(BEHIND));
     Ok(renderer.render(uploaded, &view)?)
@@ -162,6 +168,8 @@ impl Default for Panel {
             expression: None,
             light_deg: [-30.0, 30.0],
             lamp: None,
+            flame: None,
+            key: 1.0,
             head_deg: 0.0,
             coolness: None,
             time_s: 0.0,

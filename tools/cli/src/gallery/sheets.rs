@@ -2,8 +2,8 @@
 
 use hikage::color::{LinearRgb, Srgb};
 use hikage::material::{
-    Decal, Decals, DepthRim, Dissolve, DitherFade, Fire, Fluff, Gem, InnerLines, Material, ShapedHighlight, Stocking,
-    TextureRef,
+    Base, Blink, Decal, Decals, DepthRim, Dissolve, DitherFade, Emission, Fire, Fluff, Gem, Glow, InnerLines, Material,
+    Shading, ShapedHighlight, Stocking, TextureRef, Toon,
 };
 use hikage::motion::Stance;
 use hikage::scene::{Bloom, Framing, Image, Post, PunctualLight, Sampler, Scene, Texture, ToneCurve};
@@ -37,6 +37,10 @@ pub(super) struct Panel {
     /// Angles of the key light to her left and upwards.
     pub light_deg: [f32; 2],
     pub lamp: Option<PunctualLight>,
+    /// Colour and intensity of a lamp over her left hand.
+    pub flame: Option<(LinearRgb, f32)>,
+    /// Intensity of the key light.
+    pub key: f32,
     /// Turn of her head to her left.
     pub head_deg: f32,
     pub coolness: Option<f32>,
@@ -78,7 +82,6 @@ fn each_material(scene: &mut Scene, name: &str, change: impl Fn(&mut Material)) 
     scene.materials.iter_mut().filter(|m| m.name.starts_with(name)).for_each(change);
 }
 
-const FULL: Camera = Camera::Framed(Framing::Full, 20.0);
 const BROOCH: Camera = Camera::Close { part: "Brooch", yaw: 8.0, pitch: 5.0 };
 const AMBER: Camera = Camera::Close { part: "Accessory_Amber", yaw: 0.0, pitch: 0.0 };
 const CUFF: Camera = Camera::Close { part: "Jacket_Cuff", yaw: 35.0, pitch: 15.0 };
@@ -137,9 +140,14 @@ fn head() -> Vec<Sheet> {
                     light_sweep(Camera::Framed(Framing::Portrait, 25.0), 1.0, "two sides, "),
                 ),
                 row(
-                    same,
+                    |scene| {
+                        for rim in scene.materials.iter_mut().filter_map(|m| m.depth_rim.as_mut()) {
+                            rim.width_px = 9.0;
+                        }
+                    },
                     light_sweep(Camera::Framed(Framing::Portrait, 25.0), 1.0, "lamp, ").into_iter().map(|panel| {
                         Panel {
+                            key: 0.5,
                             lamp: Some(PunctualLight {
                                 position: glam::Vec3::new(-0.7, 1.5, -0.7),
                                 color: LinearRgb([1.0, 0.5, 0.1]),
@@ -173,25 +181,11 @@ fn cloth() -> Vec<Sheet> {
             rows: vec![
                 row(same, light_sweep(CUFF, 1.0, "")),
                 row(
-                    |scene| {
-                        each_material(scene, "Jacket_Cuff", |m| {
-                            m.fluff = Some(Fluff { length_m: 0.003, density: 260.0, shells: 10, ..Fluff::default() });
-                        });
-                    },
+                    |scene| each_material(scene, "Jacket_Cuff", |m| m.fluff = Some(Fluff::plush())),
                     light_sweep(CUFF, 1.0, "plush, "),
                 ),
                 row(
-                    |scene| {
-                        each_material(scene, "Jacket_Cuff", |m| {
-                            m.fluff = Some(Fluff {
-                                length_m: 0.015,
-                                density: 110.0,
-                                shells: 24,
-                                gravity_m: 0.006,
-                                ..Fluff::default()
-                            });
-                        });
-                    },
+                    |scene| each_material(scene, "Jacket_Cuff", |m| m.fluff = Some(Fluff::long())),
                     light_sweep(CUFF, 1.0, "long, "),
                 ),
             ],
@@ -199,12 +193,13 @@ fn cloth() -> Vec<Sheet> {
         Sheet {
             name: "stocking-decal",
             title: "Stockings and decals",
-            caption: "Knit is denser where it is seen aslant (stocking): as shipped, and twice as dense; hearts laid over the \
-                      skirt take its shade (decals).",
+            caption: "Knit is denser where it is seen aslant (stocking): as shipped, with the knit painted; sheer and opaque \
+                      over bare skin. A heart laid over the sleeve takes its shade and its ramp (decals).",
             rows: vec![
                 row(same, legs("")),
-                row(stockings, legs("dense, ")),
-                row(decal, light_sweep(FULL, 0.55, "decal, ")),
+                row(|scene| over_skin(scene, Stocking::sheer()), legs("sheer, ")),
+                row(|scene| over_skin(scene, Stocking::opaque()), legs("opaque, ")),
+                row(decal, light_sweep(Camera::Framed(Framing::Bust, 65.0), 0.6, "decal, ")),
             ],
         },
     ]
@@ -214,15 +209,20 @@ fn legs(what: &str) -> Vec<Panel> {
     light_sweep(Camera::Close { part: "Stocking", yaw: 15.0, pitch: 0.0 }, 0.6, what)
 }
 
-fn stockings(scene: &mut Scene) {
+/// Knit over the skin itself.
+fn over_skin(scene: &mut Scene, stocking: Stocking) {
     each_material(scene, "Stocking", |m| {
-        m.stocking = m.stocking.map(|s| Stocking { cover: 0.25, ..s });
+        m.base = Base { color: [0.98, 0.74, 0.62, 1.0], texture: None };
+        m.shading =
+            Shading::Toon(Toon { shade_color: [0.86, 0.47, 0.38], toony: 0.97, shift: -0.03, ..Toon::default() });
+        m.shade_ramp = None;
+        m.stocking = Some(stocking);
     });
 }
 
-/// A heart on the left of the jacket, painted here.
+/// A heart on the sleeves of the jacket, painted here.
 fn decal(scene: &mut Scene) {
-    const SIDE: u32 = 64;
+    const SIDE: u32 = 256;
     let pixels = (0..SIDE * SIDE).flat_map(|i| {
         let at = |k: u32| (k as f32 + 0.5) / SIDE as f32 * 2.6 - 1.3;
         let (x, y) = (at(i % SIDE), -at(i / SIDE));
@@ -232,11 +232,9 @@ fn decal(scene: &mut Scene) {
     scene.images.push(Image { width: SIDE, height: SIDE, pixels: pixels.collect(), ..Image::default() });
     scene.textures.push(Texture { image: scene.images.len() - 1, sampler: Sampler::default() });
     let map = TextureRef { texture: scene.textures.len() - 1, ..TextureRef::default() };
-    each_material(scene, "Skirt", |m| {
-        let placed = (0..3)
-            .map(|i| Decal { middle: [0.2 + 0.3 * i as f32, 0.55], size: [0.08, 0.16], ..Decal::default() })
-            .collect();
-        m.decals = Some(Decals { map, placed });
+    each_material(scene, "Jacket", |m| {
+        let heart = Decal { middle: [0.735, 0.44], size: [0.08, 0.14], ..Decal::default() };
+        m.decals = Some(Decals { map: Some(map), placed: vec![heart] });
     });
 }
 
@@ -252,8 +250,10 @@ fn ornaments() -> Vec<Sheet> {
         }));
         row(change, panels)
     };
-    let flame = |change: fn(&mut Scene), what: &str, background: [u8; 3]| {
-        let panels = (0..7).map(|i| Panel {
+    let flame = |change: fn(&mut Scene), what: &str, color: [f32; 3], background: [u8; 3]| {
+        let panels = (0..7).map(move |i| Panel {
+            key: 0.6,
+            flame: Some((LinearRgb(color), 0.02 + 0.004 * (i as f32 * 0.3 * std::f32::consts::TAU).sin())),
             caption: format!("{what}{:.2} s", i as f32 * 0.3),
             camera: Camera::Framed(Framing::Bust, 10.0),
             stance: Stance::Offer,
@@ -268,38 +268,13 @@ fn ornaments() -> Vec<Sheet> {
         Sheet {
             name: "metal",
             title: "Shaped highlights on metal",
-            caption: "The painted shape of the brooch; a squared and split one; a brushed one (shaped_highlight). The matcap \
-                      takes the place of the lit colour in part.",
+            caption: "The painted shape of the brooch; then squared and split into the panes of a window, squashed and split \
+                      into strokes, and brushed (shaped_highlight). The matcap takes the place of the lit colour in part.",
             rows: vec![
                 shape(same, ""),
-                shape(
-                    |scene| {
-                        each_material(scene, "Metal", |m| {
-                            m.shaped_highlight = m.shaped_highlight.map(|s| ShapedHighlight {
-                                map: None,
-                                square: 1.0,
-                                split: [0.06, 0.05],
-                                size_rad: 0.3,
-                                rotate_rad: 0.3,
-                                ..s
-                            });
-                        });
-                    },
-                    "split, ",
-                ),
-                shape(
-                    |scene| {
-                        each_material(scene, "Metal", |m| {
-                            m.shaped_highlight = m.shaped_highlight.map(|s| ShapedHighlight {
-                                map: None,
-                                anisotropy: 0.9,
-                                size_rad: 0.14,
-                                ..s
-                            });
-                        });
-                    },
-                    "brushed, ",
-                ),
+                shape(|scene| shape_of_metal(scene, ShapedHighlight::window()), "window, "),
+                shape(|scene| shape_of_metal(scene, ShapedHighlight::strokes()), "strokes, "),
+                shape(|scene| shape_of_metal(scene, ShapedHighlight::brushed()), "brushed, "),
             ],
         },
         Sheet {
@@ -330,9 +305,9 @@ fn ornaments() -> Vec<Sheet> {
         Sheet {
             name: "fire",
             title: "Fire",
-            caption: "A drawn shape that noise eats away, over its period of two seconds; it blooms (fire, glow, post).",
+            caption: "A drawn shape that noise eats away, over its period of two seconds; it blooms, and a lamp in it lights her (fire, glow, post).",
             rows: vec![
-                flame(same, "", [0x24, 0x28, 0x38]),
+                flame(same, "", [1.0, 0.45, 0.12], [0x24, 0x28, 0x38]),
                 flame(
                     |scene| {
                         each_material(scene, "Accessory_Flame", |m| {
@@ -340,16 +315,25 @@ fn ornaments() -> Vec<Sheet> {
                         });
                     },
                     "blue, ",
-                    [0xdf, 0xe7, 0xee],
+                    [0.12, 0.45, 1.0],
+                    [0x24, 0x28, 0x38],
                 ),
             ],
         },
     ]
 }
 
+fn shape_of_metal(scene: &mut Scene, shape: ShapedHighlight) {
+    each_material(scene, "Metal", |m| {
+        m.shaped_highlight = m.shaped_highlight.map(|s| ShapedHighlight { matcap_mix: s.matcap_mix, ..shape });
+    });
+}
+
 fn whole() -> Vec<Sheet> {
     let coolness = |value: f32, what: &str| {
-        light_sweep(FULL, 0.55, what).into_iter().map(move |panel| Panel { coolness: Some(value), ..panel })
+        light_sweep(Camera::Framed(Framing::Bust, 20.0), 0.8, what)
+            .into_iter()
+            .map(move |panel| Panel { coolness: Some(value), ..panel })
     };
     let burning = |change: fn(&mut Scene), caption: &str| (change, caption.to_owned());
     let vanishing = [
@@ -389,9 +373,11 @@ fn whole() -> Vec<Sheet> {
                 row(same, lines("tinted")),
                 row(
                     |scene| {
-                        let lined = ["Jacket", "Skirt", "Boots", "Cloth", "Stocking", "Metal"];
-                        for name in lined {
-                            each_material(scene, name, |m| m.inner_lines = Some(InnerLines::default()));
+                        let lines = InnerLines { width_px: 3.0, ..InnerLines::default() };
+                        // Tufts have their own.
+                        let is_fur = |m: &Material| m.fur_detail.is_some() || m.fluff.is_some();
+                        for name in ["Jacket", "Skirt", "Boots", "Cloth", "Stocking", "Metal", "Body"] {
+                            each_material(scene, name, |m| m.inner_lines = (!is_fur(m)).then_some(lines));
                         }
                     },
                     lines("inner lines"),
@@ -416,6 +402,24 @@ fn whole() -> Vec<Sheet> {
                 .collect(),
         },
         Sheet {
+            name: "emission",
+            title: "Light of its own",
+            caption: "A drawn pattern runs down the skirt (emission.scroll_per_s) while the amber swells and ebbs \
+                      (emission.blink); both bloom.",
+            rows: vec![row(
+                runes,
+                (0..7).map(|i| Panel {
+                    caption: format!("{:.2} s", i as f32 * 0.25),
+                    camera: Camera::Framed(Framing::Full, 15.0),
+                    aspect: 0.5,
+                    key: 0.6,
+                    time_s: i as f32 * 0.25,
+                    background: Some(Srgb([0x24, 0x28, 0x38])),
+                    ..Panel::default()
+                }),
+            )],
+        },
+        Sheet {
             name: "post",
             title: "Bloom and tone curves",
             caption: "Only what glows spreads (post.bloom, glow): fire, the diamond, the brooch. Tone curves bring light beyond \
@@ -428,6 +432,30 @@ fn whole() -> Vec<Sheet> {
             ],
         },
     ]
+}
+
+/// A chain of diamonds, painted here, that runs down the skirt, and an amber that breathes.
+fn runes(scene: &mut Scene) {
+    const SIDE: u32 = 256;
+    let pixels = (0..SIDE * SIDE).flat_map(|i| {
+        let at = |k: u32, n: f32| ((k as f32 + 0.5) / SIDE as f32 * n).fract() * 2.0 - 1.0;
+        let (x, y) = (at(i % SIDE, 24.0), at(i / SIDE, 2.0));
+        let away = x.abs() * 1.4 + y.abs();
+        let line = 1.0 - ((away - 0.62).abs() / 0.12).min(1.0);
+        let v = (line * 255.0) as u8;
+        [v, v, v, 255]
+    });
+    scene.images.push(Image { width: SIDE, height: SIDE, pixels: pixels.collect(), ..Image::default() });
+    scene.textures.push(Texture { image: scene.images.len() - 1, sampler: Sampler::default() });
+    let texture = Some(TextureRef { texture: scene.textures.len() - 1, ..TextureRef::default() });
+    each_material(scene, "Skirt", |m| {
+        m.emission = Emission { color: [0.1, 0.8, 1.6], texture, scroll_per_s: [0.0, -0.5], ..Emission::default() };
+        m.glow = Some(Glow::default());
+    });
+    each_material(scene, "Accessory_Amber", |m| {
+        m.emission = Emission { color: [1.6, 0.6, 0.1], blink: Some(Blink::default()), ..Emission::default() };
+        m.glow = Some(Glow::default());
+    });
 }
 
 fn tone(scene: &mut Scene, tone: ToneCurve) {

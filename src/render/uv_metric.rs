@@ -1,0 +1,76 @@
+//! How large texture coordinates are on a surface.
+
+use glam::{Vec2, Vec3};
+
+use crate::scene::Scene;
+
+/// Metres along a unit of u and of v on the surfaces of each material at rest: the mean by area; 1 where they span nothing.
+/// Only materials that ask are measured.
+pub(crate) fn metres_per_uv(scene: &Scene) -> Vec<[f32; 2]> {
+    let mut sums = vec![[0.0f64; 3]; scene.materials.len()];
+    let asks = |material: usize| scene.materials.get(material).is_some_and(|m| m.dissolve.is_some());
+    if (0..sums.len()).any(asks) {
+        let rest = scene.rest_world_from_nodes();
+        for (node, mesh) in scene.mesh_nodes() {
+            for part in mesh.primitives.iter().filter(|p| asks(p.material)) {
+                let position =
+                    |i: u32| part.positions.get(i as usize).map(|p| rest[node].transform_vector3(Vec3::from(*p)));
+                let uv = |i: u32| part.uvs.first().and_then(|set| set.get(i as usize)).copied().map(Vec2::from);
+                for t in part.indices.chunks_exact(3) {
+                    let ([Some(a), Some(b), Some(c)], [Some(ua), Some(ub), Some(uc)]) =
+                        ([0, 1, 2].map(|k| position(t[k])), [0, 1, 2].map(|k| uv(t[k])))
+                    else {
+                        continue;
+                    };
+                    let (e, f, x, y) = (b - a, c - a, ub - ua, uc - ua);
+                    let area_uv = x.perp_dot(y);
+                    let area = f64::from(e.cross(f).length());
+                    if area_uv.abs() < 1e-12 || !area.is_finite() {
+                        continue;
+                    }
+                    let along_u = f64::from(((e * y.y - f * x.y) / area_uv).length());
+                    let along_v = f64::from(((f * x.x - e * y.x) / area_uv).length());
+                    if along_u.is_finite() && along_v.is_finite() {
+                        let sum = &mut sums[part.material];
+                        *sum = [sum[0] + along_u * area, sum[1] + along_v * area, sum[2] + area];
+                    }
+                }
+            }
+        }
+    }
+    let mean = |[u, v, area]: [f64; 3]| {
+        if area > 0.0 {
+            [(u / area) as f32, (v / area) as f32]
+        } else {
+            [1.0; 2]
+        }
+    };
+    sums.into_iter().map(mean).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::material::{Dissolve, Material};
+    use crate::scene::{Mesh, Node, Primitive};
+
+    #[test]
+    fn a_strip_is_as_long_and_wide_as_its_texture_says() {
+        let part = Primitive {
+            positions: vec![[0.0; 3], [0.02, 0.0, 0.0], [0.02, 0.5, 0.0], [0.0, 0.5, 0.0]],
+            uvs: vec![vec![[0.0, 1.0], [0.25, 1.0], [0.25, 0.0], [0.0, 0.0]]],
+            indices: vec![0, 1, 2, 0, 2, 3],
+            ..Primitive::default()
+        };
+        let mut scene = Scene {
+            materials: vec![Material { dissolve: Some(Dissolve::default()), ..Material::default() }],
+            meshes: vec![Mesh { primitives: vec![part], ..Mesh::default() }],
+            nodes: vec![Node { mesh: Some(0), ..Node::default() }],
+            ..Scene::default()
+        };
+        let [u, v] = metres_per_uv(&scene)[0];
+        assert!((u - 0.08).abs() < 1e-6 && (v - 0.5).abs() < 1e-6, "{u} {v}");
+        scene.materials[0].dissolve = None;
+        assert_eq!(metres_per_uv(&scene), [[1.0; 2]]);
+    }
+}
