@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::ValueEnum;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use hikage::color::Srgb;
 use hikage::motion::Stance;
 use hikage::scene::Framing;
@@ -74,11 +75,9 @@ pub(crate) fn stance(text: &str) -> Result<Stance, String> {
 }
 
 /// `--channel`.
-pub(crate) fn channel(text: &str) -> Result<Channel, String> {
-    Channel::from_name(text).ok_or_else(|| {
-        let names: Vec<&str> = Channel::ALL.iter().map(|c| c.name()).collect();
-        format!("expected one of {}", names.join(", "))
-    })
+pub(crate) fn channel() -> impl TypedValueParser<Value = Channel> {
+    let names = Channel::ALL.iter().map(|c| c.name());
+    PossibleValuesParser::new(names).map(|name| Channel::from_name(&name).unwrap_or_default())
 }
 
 /// Samples a pixel: no other numbers are sure to exist on every adapter.

@@ -77,10 +77,9 @@ pub(crate) struct Args {
     /// Moment of texture animations.
     #[arg(long, value_name = "SECONDS", default_value = "0", value_parser = args::time)]
     time: f32,
-    /// What is shown of each pixel: final, normal, depth, part-id (16 bits in red (low) and green (high), 0 for
-    /// background), or a part of the anime look: face-shadow, transition, face-paint, highlight, bangs-shadow, layer,
-    /// depth-rim, eyes-through.
-    #[arg(long, value_name = "CHANNEL", default_value = "final", value_parser = args::channel)]
+    /// What is shown of each pixel: the picture, its geometry (part-id: 16 bits in red (low) and green (high), 0 for
+    /// background), or one part of a look.
+    #[arg(long, value_name = "CHANNEL", default_value = "final", value_parser = args::channel())]
     channel: Channel,
     /// Adapter, by a part of its name (`hikage adapters`).
     #[arg(long, value_name = "NAME")]
