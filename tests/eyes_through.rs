@@ -10,6 +10,7 @@ use support::{gpu, render};
 
 fn heroine(through: Option<EyesThrough>) -> Scene {
     let mut scene = support::heroine();
+    support::keep(&mut scene, support::HEAD);
     scene.eyes_through = through;
     scene
 }
@@ -46,6 +47,7 @@ fn hair_is_the_same_to_the_bit_but_before_eyes_and_brows() {
     let ids = render(&gpu, &bare, &View { channel: Channel::PartId, ..view.clone() });
     let hair: Vec<u8> = bare
         .mesh_nodes()
+        .filter(|(_, mesh)| !mesh.primitives.is_empty())
         .enumerate()
         .filter(|(_, (_, mesh))| mesh.name.starts_with("Hair"))
         .map(|(part, _)| part as u8 + 1)

@@ -2,12 +2,14 @@
 
 #![allow(dead_code, reason = "every test file uses its own share")]
 
+use std::sync::Mutex;
+
 use glam::Vec3;
 use hikage::{
     Background, Gpu, Output, Renderer, View,
     color::{LinearRgb, Srgb},
     material::{Base, Material, Shading, TextureRef, Toon},
-    scene::{Ambient, Camera, DirectionalLight, Image, Lights, Mesh, Node, Primitive, Sampler, Scene, Texture},
+    scene::{Ambient, Camera, DirectionalLight, Image, Lights, Mesh, Node, Primitive, Role, Sampler, Scene, Texture},
 };
 
 /// The adapter of the tests. `HIKAGE_ADAPTER` names another than the default.
@@ -27,6 +29,31 @@ pub fn anime_heroine() -> Scene {
     let mut scene = heroine();
     hikage::Look::Anime { face: None }.apply(&mut scene);
     scene
+}
+
+/// What belongs to a head.
+pub const HEAD: &[Role] = &[
+    Role::Face,
+    Role::Mouth,
+    Role::Eye,
+    Role::EyeWhite,
+    Role::EyeHighlight,
+    Role::Lash,
+    Role::Brow,
+    Role::Hair,
+    Role::HairFront,
+];
+
+/// Leaves the parts of these roles alone, for pictures of nothing else: the rest takes most of an upload.
+pub fn keep(scene: &mut Scene, roles: &[Role]) {
+    let mut used = vec![false; scene.materials.len()];
+    for mesh in &mut scene.meshes {
+        mesh.primitives.retain(|p| roles.contains(&p.role));
+        mesh.primitives.iter().for_each(|p| used[p.material] = true);
+    }
+    for (material, _) in scene.materials.iter_mut().zip(used).filter(|(_, used)| !used) {
+        *material = Material { name: std::mem::take(&mut material.name), ..Material::default() };
+    }
 }
 
 /// A material with a red lit and a blue shade colour.
@@ -142,9 +169,20 @@ pub fn view(size: u32, distance: f32) -> View {
     }
 }
 
-/// Renders a scene with four samples.
+/// Renders a scene with four samples. A test has one renderer, whose pipelines serve all of its scenes.
 pub fn render(gpu: &Gpu, scene: &Scene, view: &View) -> Image {
-    render_with(gpu, scene, view, Output::default())
+    // Not in a thread's own memory: drivers cannot be closed while that goes.
+    static KEPT: Mutex<Vec<(Gpu, Renderer)>> = Mutex::new(Vec::new());
+    let kept = || KEPT.lock().expect("no test panics while it takes a renderer");
+    let found = {
+        let mut kept = kept();
+        kept.iter().position(|(of, _)| of.device == gpu.device).map(|i| kept.swap_remove(i))
+    };
+    let (of, mut renderer) = found.unwrap_or_else(|| (gpu.clone(), Renderer::new(gpu).expect("a renderer")));
+    let mut uploaded = renderer.upload(scene).expect("an upload");
+    let picture = renderer.render(&mut uploaded, view).expect("a picture");
+    kept().push((of, renderer));
+    picture
 }
 
 /// Renders a scene into a given output.
