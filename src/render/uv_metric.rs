@@ -4,8 +4,9 @@ use glam::{Vec2, Vec3};
 
 use crate::scene::Scene;
 
-/// Metres along a unit of u and of v on the surfaces of each material at rest: the mean by area; 1 where they span nothing.
-/// Only materials that ask are measured.
+/// Metres along a unit of u and of v on the surfaces of each material at rest: the mean over the texture, so that linings and
+/// borders with hardly a place of their own there do not count; 1 where they span nothing. Only materials that ask are
+/// measured.
 pub(crate) fn metres_per_uv(scene: &Scene) -> Vec<[f32; 2]> {
     let mut sums = vec![[0.0f64; 3]; scene.materials.len()];
     let asks = |material: usize| scene.materials.get(material).is_some_and(|m| m.dissolve.is_some());
@@ -24,23 +25,22 @@ pub(crate) fn metres_per_uv(scene: &Scene) -> Vec<[f32; 2]> {
                     };
                     let (e, f, x, y) = (b - a, c - a, ub - ua, uc - ua);
                     let area_uv = x.perp_dot(y);
-                    let area = f64::from(e.cross(f).length());
-                    if area_uv.abs() < 1e-12 || !area.is_finite() {
+                    if area_uv.abs() < 1e-12 {
                         continue;
                     }
                     let along_u = f64::from(((e * y.y - f * x.y) / area_uv).length());
                     let along_v = f64::from(((f * x.x - e * y.x) / area_uv).length());
                     if along_u.is_finite() && along_v.is_finite() {
-                        let sum = &mut sums[part.material];
-                        *sum = [sum[0] + along_u * area, sum[1] + along_v * area, sum[2] + area];
+                        let (sum, weight) = (&mut sums[part.material], f64::from(area_uv.abs()));
+                        *sum = [sum[0] + along_u * weight, sum[1] + along_v * weight, sum[2] + weight];
                     }
                 }
             }
         }
     }
-    let mean = |[u, v, area]: [f64; 3]| {
-        if area > 0.0 {
-            [(u / area) as f32, (v / area) as f32]
+    let mean = |[u, v, weight]: [f64; 3]| {
+        if weight > 0.0 {
+            [(u / weight) as f32, (v / weight) as f32]
         } else {
             [1.0; 2]
         }

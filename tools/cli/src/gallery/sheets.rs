@@ -406,18 +406,19 @@ fn whole() -> Vec<Sheet> {
             title: "Light of its own",
             caption: "A drawn pattern runs down the skirt (emission.scroll_per_s) while the amber swells and ebbs \
                       (emission.blink); both bloom.",
-            rows: vec![row(
-                runes,
-                (0..7).map(|i| Panel {
-                    caption: format!("{:.2} s", i as f32 * 0.25),
-                    camera: Camera::Framed(Framing::Full, 15.0),
-                    aspect: 0.5,
-                    key: 0.6,
-                    time_s: i as f32 * 0.25,
-                    background: Some(Srgb([0x24, 0x28, 0x38])),
-                    ..Panel::default()
-                }),
-            )],
+            rows: ["Skirt", "Accessory_Amber"]
+                .map(|part| {
+                    let panel = |i: u8| Panel {
+                        caption: format!("{:.2} s", f32::from(i) * 0.25),
+                        camera: Camera::Close { part, yaw: 15.0, pitch: 0.0 },
+                        key: 0.6,
+                        time_s: f32::from(i) * 0.25,
+                        background: Some(Srgb([0x24, 0x28, 0x38])),
+                        ..Panel::default()
+                    };
+                    row(runes, (0..7).map(panel))
+                })
+                .into(),
         },
         Sheet {
             name: "post",
@@ -436,12 +437,12 @@ fn whole() -> Vec<Sheet> {
 
 /// A chain of diamonds, painted here, that runs down the skirt, and an amber that breathes.
 fn runes(scene: &mut Scene) {
-    const SIDE: u32 = 256;
+    const SIDE: u32 = 1024;
     let pixels = (0..SIDE * SIDE).flat_map(|i| {
         let at = |k: u32, n: f32| ((k as f32 + 0.5) / SIDE as f32 * n).fract() * 2.0 - 1.0;
-        let (x, y) = (at(i % SIDE, 24.0), at(i / SIDE, 2.0));
+        let (x, y) = (at(i % SIDE, 20.0), at(i / SIDE, 2.0));
         let away = x.abs() * 1.4 + y.abs();
-        let line = 1.0 - ((away - 0.62).abs() / 0.12).min(1.0);
+        let line = 1.0 - ((away - 0.62).abs() / 0.2).min(1.0);
         let v = (line * 255.0) as u8;
         [v, v, v, 255]
     });
@@ -453,7 +454,7 @@ fn runes(scene: &mut Scene) {
         m.glow = Some(Glow::default());
     });
     each_material(scene, "Accessory_Amber", |m| {
-        m.emission = Emission { color: [1.6, 0.6, 0.1], blink: Some(Blink::default()), ..Emission::default() };
+        m.emission = Emission { color: [0.8, 0.26, 0.04], blink: Some(Blink::default()), ..Emission::default() };
         m.glow = Some(Glow::default());
     });
 }
