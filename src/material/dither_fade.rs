@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 /// Leaves out samples of pixels in an even pattern, or whole pixels where each has one sample: a surface fades without
-/// being sorted, as when the camera comes too near, and nothing behind its own front is seen. Blended materials and fluff
+/// being sorted, as when the camera comes too near, and nothing behind its own front is seen. Blended materials
 /// fade by their alpha. A fading surface goes on casting its whole shadow.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]

@@ -22,9 +22,9 @@ pub struct Fire {
     pub erosion: f32,
     /// Softness of its border, in heat. Range 0.001..0.5. Default: 0.03.
     pub softness: f32,
-    /// How far noise changes the heat. Range 0..1. Default: 0.7.
+    /// How far noise changes the heat. Range 0..1. Default: 0.8.
     pub turbulence: f32,
-    /// How far tongues sway, in texture coordinates at the tip. Range 0..0.5. Default: 0.15.
+    /// How far tongues sway, in texture coordinates at the tip. Range 0..0.5. Default: 0.22.
     pub sway: f32,
     /// Cells of noise across the texture. Range 1..32. Default: 4.
     pub cells: u32,
@@ -44,8 +44,8 @@ impl Default for Fire {
             edges: [0.34, 0.62],
             erosion: 0.2,
             softness: 0.03,
-            turbulence: 0.7,
-            sway: 0.15,
+            turbulence: 0.8,
+            sway: 0.22,
             cells: 4,
             period_s: 2.0,
             additive: 0.35,

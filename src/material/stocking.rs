@@ -23,12 +23,12 @@ impl Stocking {
     /// Skin shows through, except where it is seen aslant.
     #[must_use]
     pub fn sheer() -> Self {
-        Self { cover: 0.25, ..Self::default() }
+        Self { cover: 0.35, ..Self::default() }
     }
 
     /// Hardly any skin shows through.
     #[must_use]
     pub fn opaque() -> Self {
-        Self { cover: 0.85, ..Self::default() }
+        Self { cover: 0.92, ..Self::default() }
     }
 }

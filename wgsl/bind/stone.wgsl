@@ -59,7 +59,7 @@ fn gem_surface(p: StonePoint, has_inclusions: bool) -> Stone {
         }
     }
     let mirrored = fresnel(saturate(dot(p.normal, p.view)), material.gem_ior) * material.gem_polish;
-    let sky = studio_light(reflect(-p.view, p.normal), p, 0.0, 12.0);
+    let sky = studio_light(reflect(-p.view, p.normal), p, 0.0, 24.0);
     return Stone(mix(body, sky, mirrored), vec3f(glow, enclosed, mirrored));
 }
 

@@ -3,7 +3,7 @@ import package::bind::frame::frame;
 import package::bind::material::material;
 import package::bind::options::{surface_options, CHANNEL_FLUFF};
 import package::bind::surface::shade_surface;
-import package::bind::vanish::dither_left;
+import package::bind::vanish::dithered_samples;
 import package::bind::varying::{Varying, surface_input, surface_varying};
 import package::bind::vertex::VertexInput;
 import package::lib::color::srgb_from_linear;
@@ -45,13 +45,25 @@ fn vs_main(vertex: VertexInput) -> FluffVarying {
     );
 }
 
+struct DitheredOutput {
+    @location(0) color: vec4f,
+    @builtin(sample_mask) samples: u32,
+}
+
 @fragment
 fn fs_main(in: FluffVarying) -> @location(0) vec4f {
+    return shell(in);
+}
+
+// For DITHER_SAMPLES.
+@fragment
+fn fs_dithered(in: FluffVarying) -> DitheredOutput {
+    return DitheredOutput(shell(in), dithered_samples(in.clip_position.xy, in.world_position));
+}
+
+fn shell(in: FluffVarying) -> vec4f {
     let strand = fluff_strand(in.uv.xy * material.fluff_density);
-    var cover = fluff_cover(strand.w, in.level, material.fluff_softness);
-    if surface_options().dither_fade {
-        cover *= dither_left(in.world_position);
-    }
+    let cover = fluff_cover(strand.w, in.level, material.fluff_softness);
     // Strands catch the light each in its own way: its border has their shape.
     let normal = normalize(in.normal) + strand.xyz * material.fluff_ruffle;
     let place = Varying(

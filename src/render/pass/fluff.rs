@@ -37,8 +37,7 @@ impl FluffPass {
 
     /// The pipeline for a material, made on first use.
     pub fn pipeline(&mut self, gpu: &Gpu, layouts: &Layouts, flags: SurfaceFlags) -> wgpu::RenderPipeline {
-        // Strands fade by their cover.
-        let flags = SurfaceFlags { dither_samples: flags.dither_fade, ..flags };
+        let flags = SurfaceFlags { dither_samples: flags.dither_fade && self.output.samples == 4, ..flags };
         let make = || {
             let mut constants = flags.constants();
             constants.push(encode_constant(flags.output(self.output)));
@@ -49,7 +48,7 @@ impl FluffPass {
                 &ColorPipeline {
                     label: "fluff",
                     module: &self.module,
-                    fragment: "fs_main",
+                    fragment: if flags.dither_samples { "fs_dithered" } else { "fs_main" },
                     constants: &constants,
                     cull: Some(wgpu::Face::Back),
                     blend: true,

@@ -18,6 +18,19 @@ pub(super) fn pin_frame() -> [Vec3; 3] {
     [right, front.cross(right), front]
 }
 
+const AMBER_COLUMNS: usize = 40;
+
+/// A profile with a place between each two, on a smooth curve through all of them (Catmull-Rom).
+fn rounded(profile: &[[f32; 2]]) -> Vec<[f32; 2]> {
+    let at = |i: usize| Vec2::from(profile[i.min(profile.len() - 1)]);
+    let mut all = vec![profile[0]];
+    for i in 1..profile.len() {
+        let between = (at(i - 1) + at(i)) * 0.5625 - (at(i.saturating_sub(2)) + at(i + 1)) * 0.0625;
+        all.extend([between.to_array(), profile[i]]);
+    }
+    all
+}
+
 /// The amber drop.
 pub(super) fn amber([_, lower]: [usize; 2]) -> Part {
     let mut part = Part::new("Pendant", "Accessory_Amber");
@@ -38,8 +51,11 @@ pub(super) fn amber([_, lower]: [usize; 2]) -> Part {
         [0.0318, 0.0011],
     ];
     // Downwards: right × up is -Y.
-    let rows: Vec<Vec<Vec3>> =
-        profile.iter().map(|[down, r]| ring_in(top - Vec3::Y * *down, Vec3::X * *r, Vec3::Z * *r * 0.78, 24)).collect();
+    let rows: Vec<Vec<Vec3>> = rounded(&profile)
+        .into_iter()
+        .map(|[down, r]| ring_in(top - Vec3::Y * down, Vec3::X * r, Vec3::Z * r * 0.78, AMBER_COLUMNS))
+        .collect();
+    let (columns, last) = (AMBER_COLUMNS as u32 + 1, rows.len() as u32 - 1);
     let span = profile[10][0] - profile[0][0];
     let first = grid(&mut part, &rows, true, |r, c| Vec2::new(c, r), |_| bone);
     for v in &mut part.vertices {
@@ -47,8 +63,8 @@ pub(super) fn amber([_, lower]: [usize; 2]) -> Part {
         let d = v.position - top;
         v.uv = Vec2::new(0.5 + 0.47 * d.x / 0.0103, 0.02 + 0.96 * (-d.y - profile[0][0]) / span);
     }
-    part.cap(&row(first, 25, 0, true), Vec2::new(0.5, 0.02), bone);
-    part.cap(&row(first, 25, 10, false), Vec2::new(0.5, 0.98), bone);
+    part.cap(&row(first, columns, 0, true), Vec2::new(0.5, 0.02), bone);
+    part.cap(&row(first, columns, last, false), Vec2::new(0.5, 0.98), bone);
     part.smooth_normals();
     part
 }
