@@ -34,8 +34,10 @@ pub(super) fn brooch(skeleton: &Skeleton) -> Part {
     let mut part = Part::new("Brooch", "Metal_Brooch");
     let up = Vec3::new(0.0, 0.9, -0.44).normalize();
     let bone = skeleton.only("upperChest");
-    let center = before_chest(KNOT_Y, 0.0128);
+    // Its lines need room before the knot.
+    let center = before_chest(KNOT_Y, 0.0165);
     let profile = [
+        [0.006, -0.006],
         [0.0085, -0.002],
         [0.0106, -0.001],
         [0.0112, 0.0006],

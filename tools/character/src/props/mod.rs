@@ -57,7 +57,7 @@ fn pendant_chain(model: &mut Model) -> [usize; 2] {
 const CORD: [f32; 2] = [1.232, 1.168];
 
 /// Distance of the stone's axis from the chest: its lines need room behind it.
-const STONE_STANDS: f32 = 0.015;
+const STONE_STANDS: f32 = 0.019;
 
 fn materials(model: &mut Model) {
     let texture = |name, paint| Texture { name, paint, repeat: false };
