@@ -13,7 +13,7 @@ use crate::skeleton::{Skeleton, Weights, blend};
 /// A surface of revolution: from the back to the front, (radius, height) along `right` × `up`. The texture is seen from
 /// the front, over a disc of the largest radius.
 pub(super) fn lathe(part: &mut Part, center: Vec3, [right, up]: [Vec3; 2], profile: &[[f32; 2]], bone: Weights) {
-    const COLUMNS: usize = 48;
+    const COLUMNS: usize = 36;
     let front = right.cross(up);
     let widest = profile.iter().map(|p| p[0]).fold(0.0, f32::max);
     let rows: Vec<Vec<Vec3>> =

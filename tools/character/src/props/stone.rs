@@ -18,7 +18,7 @@ pub(super) fn pin_frame() -> [Vec3; 3] {
     [right, front.cross(right), front]
 }
 
-const AMBER_COLUMNS: usize = 40;
+const AMBER_COLUMNS: usize = 32;
 
 /// A profile with a place between each two, on a smooth curve through all of them (Catmull-Rom).
 fn rounded(profile: &[[f32; 2]]) -> Vec<[f32; 2]> {
