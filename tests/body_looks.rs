@@ -332,6 +332,29 @@ fn post_spreads_what_glows_and_keeps_backgrounds() {
     }
 }
 
+/// Light that blooms is hidden by what stands before it, and fades with what shines.
+#[test]
+fn glow_is_hidden_and_fades() {
+    let gpu = gpu();
+    let view = ball_view(128);
+    let with = |wall_z: f32, glow: bool, opacity: f32| {
+        let lamp = Material {
+            emission: Emission { color: [1.5; 3], ..Emission::default() },
+            glow: glow.then(Glow::default),
+            dither_fade: Some(DitherFade { opacity, ..DitherFade::default() }),
+            ..two_tone()
+        };
+        let mut scene =
+            scene(vec![(square([0.0, 0.0], 0.2, 0.0), lamp), (square([0.0, 0.0], 0.3, wall_z), two_tone())]);
+        scene.post = Some(Post { bloom: Some(Bloom::default()), ..Post::default() });
+        render(&gpu, &scene, &view)
+    };
+    let change = |wall_z, opacity| difference(&with(wall_z, true, opacity), &with(wall_z, false, opacity));
+    assert_eq!(change(0.1, 1.0), 0, "behind a wall nothing of it is seen");
+    assert!(change(-0.1, 1.0) > 500, "before the wall it spreads");
+    assert_eq!(change(-0.1, 0.0), 0, "what has faded does not shine");
+}
+
 /// With one sample a pixel, post smooths the edge of a ball.
 #[test]
 fn post_smooths_edges_of_one_sample() {

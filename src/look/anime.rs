@@ -117,13 +117,11 @@ fn round_hair(scene: &mut Scene) {
 
 /// A band that follows view and light: painted, where the file carries one, else round the head.
 fn hair(scene: &mut Scene) {
-    // A lock before the hair of the back is no contour.
-    let rim = DepthRim { threshold_m: 0.15, width_px: 3.0, ..DepthRim::default() };
     let mut bare = BTreeSet::new();
     for role in [Role::HairFront, Role::Hair] {
         for index in materials_of(scene, role) {
             let material = &mut scene.materials[index];
-            material.depth_rim = (material.alpha.mode != AlphaMode::Blend).then_some(rim);
+            material.depth_rim = (material.alpha.mode != AlphaMode::Blend).then_some(rim());
             material.highlight = material.authored.highlight.map(|map| Highlight {
                 map,
                 second_strength: 0.5,
@@ -141,13 +139,21 @@ fn hair(scene: &mut Scene) {
     hair_band::add(scene, &bare);
 }
 
-/// Rims of the body: warm on skin, in the cloth's own colour on clothes; an arm before the chest is no contour.
+/// A lock before the hair of the back is no contour, and neither is an arm before the chest.
+fn rim() -> DepthRim {
+    DepthRim { threshold_m: 0.15, width_px: 3.0, ..DepthRim::default() }
+}
+
+/// Warm and faint.
+fn skin_rim() -> DepthRim {
+    DepthRim { color: [0.6, 0.5, 0.44], strength: 0.5, ..rim() }
+}
+
+/// Rims of the body: those of skin, and in the cloth's own colour on clothes.
 fn body_rims(scene: &mut Scene) {
-    let rim = DepthRim { threshold_m: 0.15, width_px: 3.0, ..DepthRim::default() };
-    let skin = DepthRim { color: [0.6, 0.5, 0.44], strength: 0.5, ..rim };
-    let cloth = DepthRim { tint: 0.85, strength: 0.8, ..rim };
+    let cloth = DepthRim { tint: 0.85, strength: 0.8, ..rim() };
     let faces = materials_of(scene, Role::Face);
-    for (role, rim) in [(Role::Cloth, cloth), (Role::Skin, skin)] {
+    for (role, rim) in [(Role::Cloth, cloth), (Role::Skin, skin_rim())] {
         for index in materials_of(scene, role).difference(&faces) {
             let material = &mut scene.materials[*index];
             material.depth_rim = (material.alpha.mode != AlphaMode::Blend).then_some(rim);
@@ -165,13 +171,7 @@ fn faces(scene: &mut Scene, painted: Option<&Sides>) {
         let material = &mut scene.materials[index];
         material.bangs_shadow = Some(BangsShadow { color: shade, ..BangsShadow::default() });
         material.transition = Some(Transition::default());
-        material.depth_rim = Some(DepthRim {
-            color: [0.6, 0.5, 0.44],
-            strength: 0.5,
-            threshold_m: 0.15,
-            width_px: 3.0,
-            ..DepthRim::default()
-        });
+        material.depth_rim = Some(skin_rim());
         material.highlight = material.authored.highlight.map(|map| Highlight {
             map,
             strength: 0.9,

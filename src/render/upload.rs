@@ -380,7 +380,8 @@ impl GpuScene {
         }
         for index in self.posed_materials.keys().chain(pose.materials.keys()) {
             if let Some(material) = pose.materials.get(index).or_else(|| self.source_materials.get(*index)) {
-                let uniform = MaterialUniform::new(material, &self.face_maps, self.metres_per_uv[*index]);
+                let metres = self.metres_per_uv.get(*index).copied().unwrap_or([1.0; 2]);
+                let uniform = MaterialUniform::new(material, &self.face_maps, metres);
                 gpu.queue.write_buffer(&self.materials, *index as u64 * MATERIAL_STRIDE, bytemuck::bytes_of(&uniform));
             }
         }
