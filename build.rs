@@ -1,21 +1,25 @@
-//! Links every entry file of `wgsl/pass/` with its imports into one plain WGSL text, embedded by `src/render/shaders.rs`.
+//! Embeds the files of `wgsl/`; `src/render/shaders.rs` links what a material needs from them.
 
-use std::{error::Error, fs, path::Path};
-
-use wesl::{ManglerKind, ModulePath, Wesl};
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+use std::{error::Error, fs};
 
 fn main() -> Result<(), Box<dyn Error>> {
     println!("cargo::rerun-if-changed=wgsl");
-    let out = std::env::var("OUT_DIR")?;
-    let mut compiler = Wesl::new("wgsl");
-    // Names are unique over the whole tree, so linked texts keep them: overrides are set and errors read by name.
-    compiler.set_mangler(ManglerKind::None).keep_all_entrypoints();
-    for entry in fs::read_dir("wgsl/pass")? {
-        let path = entry?.path();
-        let stem = path.file_stem().and_then(|s| s.to_str()).ok_or("a shader's file name is not UTF-8")?;
-        let module: ModulePath = format!("package::pass::{stem}").parse().map_err(|e| format!("{stem}: {e}"))?;
-        let linked = compiler.compile(&module).map_err(|e| format!("wgsl/pass/{stem}.wgsl: {e}"))?;
-        fs::write(Path::new(&out).join(format!("{stem}.wgsl")), linked.to_string())?;
+    let root = PathBuf::from(std::env::var("CARGO_MANIFEST_DIR")?).join("wgsl");
+    let mut list = String::from("&[\n");
+    let mut folders: Vec<_> = fs::read_dir(&root)?.map(|e| e.map(|e| e.path())).collect::<Result<_, _>>()?;
+    folders.sort();
+    for folder in folders {
+        let mut files: Vec<_> = fs::read_dir(&folder)?.map(|e| e.map(|e| e.path())).collect::<Result<_, _>>()?;
+        files.sort();
+        for file in files {
+            let module = file.strip_prefix(&root)?.with_extension("");
+            let module = module.to_str().ok_or("a shader's file name is not UTF-8")?.replace('\\', "/");
+            writeln!(list, "    ({module:?}, include_str!({:?})),", file.display().to_string())?;
+        }
     }
+    list.push_str("]\n");
+    fs::write(Path::new(&std::env::var("OUT_DIR")?).join("tree.rs"), list)?;
     Ok(())
 }

@@ -73,6 +73,11 @@ pub(crate) fn hue_saturation(hue_rad: f32, saturation: f32) -> [[f32; 3]; 3] {
     })
 }
 
+/// [`hue_saturation`] as a matrix of WGSL: each column fills four numbers.
+pub(crate) fn hue_saturation_columns(hue_rad: f32, saturation: f32) -> [[f32; 4]; 3] {
+    hue_saturation(hue_rad, saturation).map(|[x, y, z]| [x, y, z, 0.0])
+}
+
 /// sRGB decoding (IEC 61966-2-1): encoded 0..=1 to linear 0..=1.
 #[must_use]
 pub fn linear_from_srgb(encoded: f32) -> f32 {

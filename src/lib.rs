@@ -27,6 +27,9 @@
 //! light of intensity 1 shows a material's lit colour exactly. Colours are linear RGB unless a type says sRGB. Matrices are
 //! named `target_from_source`. Depth is reversed: 1 at the near plane, 0 at infinity.
 
+// What macros of the library write begins with its name, here as in an application.
+extern crate self as hikage;
+
 pub mod bench;
 pub mod color;
 mod error;
@@ -45,6 +48,17 @@ pub use error::{Error, Result};
 pub use gpu::{AdapterInfo, Gpu};
 pub use look::{Look, LookFile};
 pub use render::{Background, Channel, GpuMemory, GpuScene, Output, Renderer, View, shaders};
+
+/// What macros reach.
+#[doc(hidden)]
+pub mod __private {
+    pub use serde;
+
+    /// Values of a section as a look file would write them.
+    pub fn table(section: &impl serde::Serialize) -> toml::Table {
+        toml::Table::try_from(section).unwrap_or_default()
+    }
+}
 
 /// The code of the README compiles.
 #[cfg(doctest)]

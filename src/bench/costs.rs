@@ -5,7 +5,7 @@ use std::time::Instant;
 use serde::Serialize;
 
 use super::{BenchOptions, Stage, milliseconds, spread};
-use crate::{Gpu, Result, material::Material, scene::Scene};
+use crate::{Gpu, Result, material::all, scene::Scene};
 
 /// Cost of one look.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -21,34 +21,6 @@ pub struct Cost {
     /// Their ratio.
     pub ratio: f64,
 }
-
-/// Takes a section off a material; whether it was there.
-type Off = fn(&mut Material) -> bool;
-
-/// Sections of materials that cost something, in the order of shading.
-const MATERIAL_LOOKS: &[(&str, Off)] = &[
-    ("face_shadow", |m| m.face_shadow.take().is_some()),
-    ("transition", |m| m.transition.take().is_some()),
-    ("shade_ramp", |m| m.shade_ramp.take().is_some()),
-    ("light_response", |m| m.light_response.take().is_some()),
-    ("fur_detail", |m| m.fur_detail.take().is_some()),
-    ("face_paint", |m| m.face_paint.take().is_some()),
-    ("highlight", |m| m.highlight.take().is_some()),
-    ("shaped_highlight", |m| m.shaped_highlight.take().is_some()),
-    ("sparkle", |m| m.sparkle.take().is_some()),
-    ("gem", |m| m.gem.take().is_some()),
-    ("diamond", |m| m.diamond.take().is_some()),
-    ("fire", |m| m.fire.take().is_some()),
-    ("fluff", |m| m.fluff.take().is_some()),
-    ("stocking", |m| m.stocking.take().is_some()),
-    ("decals", |m| m.decals.take().is_some()),
-    ("dissolve", |m| m.dissolve.take().is_some()),
-    ("dither_fade", |m| m.dither_fade.take().is_some()),
-    ("depth_rim", |m| m.depth_rim.take().is_some()),
-    ("outline", |m| m.outline.take().is_some()),
-    ("outline tint", |m| m.outline.as_mut().is_some_and(|o| o.tint.take().is_some())),
-    ("inner_lines", |m| m.inner_lines.take().is_some()),
-];
 
 /// Takes a section off a scene; whether it was there.
 type SceneOff = fn(&mut Scene) -> bool;
@@ -67,11 +39,11 @@ const SCENE_LOOKS: &[(&str, SceneOff)] = &[
 pub fn costs(gpu: &Gpu, scene: &Scene, plain: &Scene, options: &BenchOptions) -> Result<Vec<Cost>> {
     let mut with = Stage::new(gpu, scene, options)?;
     let mut list = vec![cost(gpu, options, &mut with, plain, "all", scene.materials.len())?];
-    for (look, off) in MATERIAL_LOOKS {
+    for about in all() {
         let mut other = scene.clone();
-        let materials = other.materials.iter_mut().map(off).filter(|had| *had).count();
+        let materials = other.materials.iter_mut().map(|m| m.remove(about.key)).filter(|had| *had).count();
         if materials > 0 {
-            list.push(cost(gpu, options, &mut with, &other, look, materials)?);
+            list.push(cost(gpu, options, &mut with, &other, about.key, materials)?);
         }
     }
     for (look, off) in SCENE_LOOKS {

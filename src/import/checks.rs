@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::material::{Material, Shading};
+use crate::material::Encoding;
 use crate::scene::{Role, Scene};
 
 use super::fault::quoted;
@@ -57,10 +57,16 @@ fn check_texture_uses(scene: &Scene, warnings: &mut Warnings) {
     let mut color: BTreeSet<usize> = BTreeSet::new();
     let mut data: BTreeMap<usize, usize> = BTreeMap::new();
     for (index, material) in scene.materials.iter().enumerate() {
-        let image = |texture: usize| scene.textures.get(texture).map(|t| t.image);
-        color.extend(color_textures(material).filter_map(image));
-        for image in data_textures(material).filter_map(image) {
-            data.entry(image).or_insert(index);
+        for (_, texture, encoding) in material.textures() {
+            let Some(image) = scene.textures.get(texture).map(|t| t.image) else { continue };
+            match encoding {
+                Encoding::Srgb => {
+                    color.insert(image);
+                }
+                Encoding::Linear => {
+                    data.entry(image).or_insert(index);
+                }
+            }
         }
     }
     for (image, material) in data {
@@ -79,24 +85,4 @@ fn check_texture_uses(scene: &Scene, warnings: &mut Warnings) {
             );
         }
     }
-}
-
-fn color_textures(material: &Material) -> impl Iterator<Item = usize> {
-    let shade = match &material.shading {
-        Shading::Toon(toon) => toon.shade_texture,
-        Shading::Unlit => None,
-    };
-    [material.base.texture, material.emission.texture, shade].into_iter().flatten().map(|t| t.texture)
-}
-
-fn data_textures(material: &Material) -> impl Iterator<Item = usize> {
-    let shift = match &material.shading {
-        Shading::Toon(toon) => toon.shift_texture,
-        Shading::Unlit => None,
-    };
-    let outline = material.outline.and_then(|o| o.width_mask);
-    [material.normal_map.map(|n| n.texture), shift, outline, material.uv_animation.mask]
-        .into_iter()
-        .flatten()
-        .map(|t| t.texture)
 }

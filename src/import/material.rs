@@ -1,7 +1,7 @@
 //! Materials: what glTF says of all of them, then the one shading that each has.
 
 use crate::material::{
-    Alpha, AlphaMode, Base, Emission, Material, NormalMap, Origin, Shading, Substance, TextureRef, Toon,
+    Alpha, AlphaMode, Base, Emission, Material, NormalMap, Origin, Shading, Substance, TextureRef,
 };
 
 use super::fault::{Result, quoted};
@@ -129,41 +129,29 @@ fn check_info(json: &Json, key: &str, textures: &Textures) -> Result<()> {
     Ok(())
 }
 
-/// All texture references of a material, the base colour's first.
-fn texture_refs(material: &mut Material) -> impl Iterator<Item = &mut TextureRef> {
-    let toon = match &mut material.shading {
-        Shading::Toon(Toon { shade_texture, shift_texture, .. }) => [shade_texture.as_mut(), shift_texture.as_mut()],
-        Shading::Unlit => [None, None],
-    };
-    [
-        material.base.texture.as_mut(),
-        material.normal_map.as_mut().map(|n| &mut n.texture),
-        material.emission.texture.as_mut(),
-        material.rim.mask.as_mut(),
-        material.outline.as_mut().and_then(|o| o.width_mask.as_mut()),
-        material.uv_animation.mask.as_mut(),
-        material.authored.highlight.as_mut(),
-        material.authored.face_paint.as_mut(),
-        material.authored.detail_normal.as_mut(),
-        material.authored.part_ids.as_mut(),
-        material.authored.highlight_shape.as_mut(),
-        material.authored.inclusions.as_mut(),
-        material.authored.heat.as_mut(),
-    ]
-    .into_iter()
-    .chain(toon)
-    .flatten()
+/// Every texture of a material that lies on its surface, the base colour's first.
+fn each_texture(material: &mut Material, visit: &mut dyn FnMut(&mut TextureRef)) {
+    material.each_texture(&mut |_, _, read, texture| {
+        if read.by_uv {
+            visit(texture);
+        }
+    });
+    material.authored.each_texture(&mut |_, read, texture| {
+        if read.by_uv {
+            visit(texture);
+        }
+    });
 }
 
 /// Numbers the UV sets that a material uses from 0 and returns their `TEXCOORD` numbers, ascending. The result depends
 /// on the material alone, so that primitives with different attributes can share it.
 fn gather_uv_sets(material: &mut Material, pointer: &str, warnings: &mut Warnings) -> Vec<u32> {
     let mut sets: Vec<u32> = Vec::new();
-    for texture in texture_refs(material) {
+    each_texture(material, &mut |texture| {
         if !sets.contains(&texture.uv_set) {
             sets.push(texture.uv_set);
         }
-    }
+    });
     if sets.len() > 2 {
         warnings.add(pointer, format!("material uses {} UV sets: all but the first two read the first", sets.len()));
         sets.truncate(2);
@@ -171,10 +159,10 @@ fn gather_uv_sets(material: &mut Material, pointer: &str, warnings: &mut Warning
     let first = sets.first().copied().unwrap_or(0);
     sets.sort_unstable();
     let place = |set: u32| sets.iter().position(|s| *s == set);
-    for texture in texture_refs(material) {
+    each_texture(material, &mut |texture| {
         let index = place(texture.uv_set).or_else(|| place(first)).unwrap_or(0);
         texture.uv_set = u32::try_from(index).unwrap_or(0);
-    }
+    });
     sets
 }
 

@@ -42,7 +42,7 @@ pub(super) fn apply(
     let matcap = textures.info(ext, "matcapTexture", warnings)?;
     let matcap_color = color("matcapFactor", [1.0; 3])?;
     // A factor of 0 is kept: an expression may drive it.
-    material.matcap = matcap.map(|t| Matcap { texture: t.texture, color: matcap_color });
+    material.matcap = matcap.map(|t| Matcap { texture: t, color: matcap_color });
 
     let rim = Rim::default();
     material.rim = Rim {

@@ -147,7 +147,7 @@ pub(super) fn apply(
     let [er, eg, eb] = [er, eg, eb].map(|c| if c > 1.0 { c.powf(2.2) } else { linear_from_srgb(c) });
     material.emission = Emission { color: [er, eg, eb], texture: texture.get("_EmissionMap")?, ..Emission::default() };
     material.shading = Shading::Toon(toon(&p.json, &floats, main, texture.get("_ShadeTexture")?));
-    material.matcap = texture.get("_SphereAdd")?.map(|t| Matcap { texture: t.texture, color: [1.0; 3] });
+    material.matcap = texture.get("_SphereAdd")?.map(|t| Matcap { texture: t, color: [1.0; 3] });
     material.rim = Rim {
         color: srgb(&p.json, "_RimColor", [0.0; 4]),
         fresnel_power: number("_RimFresnelPower", 1.0).max(0.0),

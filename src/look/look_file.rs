@@ -12,9 +12,9 @@ use super::{
     presets,
     values::{merge, nearest, no_such, not_finite, units},
 };
+use crate::material::{About, AlphaMode, Field, Kind, Material, Read, all, registered};
 use crate::color::LinearRgb;
 use crate::import::{Limits, image};
-use crate::material::{AlphaMode, Material};
 use crate::scene::{Ambient, DirectionalLight, Image, Lights, Role, Sampler, Scene, Texture, Wrap};
 use crate::sdf::{FaceLayout, FaceMap, Texels};
 use crate::{Error, Result};
@@ -295,9 +295,27 @@ impl LookFile {
             self.face_maps(scene, shadow, &format!("{pointer}.face_shadow"))?;
         }
         presets::expand(&mut over).map_err(|message| self.fault(pointer, message))?;
-        self.textures(scene, &mut over, "", pointer)?;
+        self.textures(scene, &mut over, pointer)?;
         units(&mut over, false).map_err(|message| self.fault(pointer, message))?;
+        let own: Vec<_> = registered().into_iter().filter_map(|r| Some((r, over.remove(r.about.key)?))).collect();
         let mut changed: Material = self.merged(&scene.materials[material], &over, pointer)?;
+        // What cannot be written in a file.
+        changed.own.clone_from(&scene.materials[material].own);
+        for (registered, value) in own {
+            let set = match value {
+                Value::Boolean(false) => (registered.set)(&mut changed, None),
+                Value::Table(over) => {
+                    let mut whole = (registered.table)(&changed);
+                    merge(&mut whole, &over);
+                    (registered.set)(&mut changed, Some(whole))
+                }
+                _ => Err("expected a table, or false to switch it off".to_owned()),
+            };
+            set.map_err(|m| self.fault(&format!("{pointer}.{}", registered.about.key), nearest(&m)))?;
+        }
+        if let Some((key, message)) = changed.out_of_range() {
+            return Err(self.fault(&format!("{pointer}.{key}"), message));
+        }
         if let Some(fire) = &mut changed.fire {
             fire.heat = fire.heat.or(changed.authored.heat);
             if over.contains_key("fire") && changed.alpha.mode != AlphaMode::Blend {
@@ -376,26 +394,28 @@ impl LookFile {
         Ok(())
     }
 
-    /// Loads every texture that a table names and puts its number in place of the name.
-    fn textures(&self, scene: &mut Scene, table: &mut Table, parent: &str, pointer: &str) -> Result<()> {
-        for (key, value) in table.iter_mut() {
-            match value {
-                Value::Table(inner) if parent != "face_shadow" => self.textures(scene, inner, key, pointer)?,
-                Value::String(name) if TEXTURE_KEYS.contains(&key.as_str()) => {
-                    // Highlights that move out of their map must not come in on the other side; skins and clothes stay within.
-                    let wrap = if REPEATED_KEYS.contains(&key.as_str()) {
-                        Wrap::Repeat
-                    } else {
-                        Wrap::Clamp
-                    };
-                    let texture = add_texture(scene, image::load(self.beside_this(Path::new(name), pointer)?)?, wrap);
-                    let number = Value::Integer(texture as i64);
-                    // A matcap has no transform: its texture is the number itself.
-                    *value = if parent == "matcap" {
-                        number
-                    } else {
-                        Value::Table(Table::from_iter([("texture".to_owned(), number)]))
-                    };
+    /// Loads every texture that sections name and puts its number in place of the name.
+    fn textures(&self, scene: &mut Scene, sections: &mut Table, pointer: &str) -> Result<()> {
+        for about in all() {
+            let section = match about.key {
+                "toon" => sections.get_mut("shading").and_then(|s| s.get_mut("toon")),
+                key => sections.get_mut(key),
+            };
+            if let Some(Value::Table(section)) = section {
+                self.textures_of(scene, about.fields, section, pointer)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn textures_of(&self, scene: &mut Scene, fields: &[Field], table: &mut Table, pointer: &str) -> Result<()> {
+        for field in fields {
+            match (field.kind, table.get_mut(field.name)) {
+                (Kind::Part(inner), Some(Value::Table(table))) => self.textures_of(scene, inner, table, pointer)?,
+                (Kind::Texture(read), Some(value)) if value.is_str() => {
+                    let file = self.beside_this(Path::new(value.as_str().unwrap_or_default()), pointer)?;
+                    let texture = add_texture(scene, image::load(file)?, read);
+                    *value = Value::Table(Table::from_iter([("texture".to_owned(), Value::Integer(texture as i64))]));
                 }
                 _ => {}
             }
@@ -418,27 +438,10 @@ impl LookFile {
     }
 }
 
-/// Keys that hold a texture.
-const TEXTURE_KEYS: [&str; 13] = [
-    "texture",
-    "shade_texture",
-    "shift_texture",
-    "mask",
-    "width_mask",
-    "map",
-    "warm",
-    "cool",
-    "part_ids",
-    "detail_normal",
-    "detail_color",
-    "inclusions",
-    "heat",
-];
-/// Those of them that repeat.
-const REPEATED_KEYS: [&str; 3] = ["detail_normal", "detail_color", "inclusions"];
-
-fn add_texture(scene: &mut Scene, image: Image, wrap: Wrap) -> usize {
+fn add_texture(scene: &mut Scene, image: Image, read: Read) -> usize {
     scene.images.push(image);
+    // Highlights that move out of their map must not come in on the other side; skins and clothes stay within.
+    let wrap = if read.repeats { Wrap::Repeat } else { Wrap::Clamp };
     let sampler = Sampler { wrap_u: wrap, wrap_v: wrap, ..Sampler::default() };
     scene.textures.push(Texture { image: scene.images.len() - 1, sampler });
     scene.textures.len() - 1
@@ -467,42 +470,30 @@ fn role_name(role: Role) -> String {
 }
 
 /// What looks add to a material, without its textures.
-fn look_sections(material: &crate::material::Material) -> Table {
-    let kept = [
-        "face_shadow",
-        "transition",
-        "shade_ramp",
-        "light_response",
-        "cast_shadow",
-        "fur_detail",
-        "face_paint",
-        "bangs_shadow",
-        "highlight",
-        "layer",
-        "depth_rim",
-        "shaped_highlight",
-        "sparkle",
-        "gem",
-        "diamond",
-        "fire",
-        "fluff",
-        "glow",
-        "stocking",
-        "dissolve",
-        "dither_fade",
-        "inner_lines",
-    ];
-    let mut table = table_of(material).unwrap_or_default();
-    table.retain(|key, _| kept.contains(&key));
-    strip_textures(&mut table);
+fn look_sections(material: &Material) -> Table {
+    let whole = table_of(material).unwrap_or_default();
+    let of_look = |about: &&'static About| !about.of_file;
+    let mut table = Table::new();
+    for about in all().filter(of_look) {
+        if let Some(Value::Table(section)) = whole.get(about.key) {
+            let mut section = section.clone();
+            strip_textures(about.fields, &mut section);
+            table.insert(about.key.to_owned(), Value::Table(section));
+        }
+    }
     table
 }
 
 /// Removes what refers to textures by number: a look file names files.
-fn strip_textures(table: &mut Table) {
-    table.retain(|key, _| !TEXTURE_KEYS.contains(&key));
-    for value in table.iter_mut().filter_map(|(_, v)| v.as_table_mut()) {
-        strip_textures(value);
+fn strip_textures(fields: &[Field], table: &mut Table) {
+    for field in fields {
+        match (field.kind, table.get_mut(field.name)) {
+            (Kind::Texture(_), Some(_)) => {
+                table.remove(field.name);
+            }
+            (Kind::Part(inner), Some(Value::Table(table))) => strip_textures(inner, table),
+            _ => {}
+        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{MAX_PARTS, TextureRef};
+use super::{MAX_PARTS, Read, TextureRef};
 
 /// Textures that glTF and MToon have no place for.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -46,6 +46,30 @@ impl Default for Authored {
             inclusions: None,
             heat: None,
             substance: None,
+        }
+    }
+}
+
+impl Authored {
+    /// Visits every texture: its name in the file, how it is read, value.
+    pub(crate) fn each_texture(&mut self, visit: &mut dyn FnMut(&'static str, Read, &mut TextureRef)) {
+        let Self { highlight, face_paint, detail_normal, ramps, part_ids, highlight_shape, inclusions, heat, .. } = self;
+        for (name, read, texture) in [
+            ("highlight", Read::LINEAR, highlight),
+            ("facePaint", Read::LINEAR, face_paint),
+            ("detailNormal", Read::LINEAR, detail_normal),
+            ("partId", Read::LINEAR, part_ids),
+            ("highlightShape", Read::LINEAR, highlight_shape),
+            ("inclusions", Read::SRGB, inclusions),
+            ("heat", Read::LINEAR, heat),
+        ] {
+            if let Some(texture) = texture {
+                visit(name, read, texture);
+            }
+        }
+        if let Some([warm, cool]) = ramps {
+            visit("rampWarm", Read::RAMP, warm);
+            visit("rampCool", Read::RAMP, cool);
         }
     }
 }

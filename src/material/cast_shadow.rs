@@ -1,21 +1,34 @@
 //! What a material has to do with the shadow of a character on itself.
 
-use serde::{Deserialize, Serialize};
+use super::{Section, Surroundings};
+use crate::render::layout::Block;
 
-/// Part of a material in [`SelfShadow`](crate::scene::SelfShadow). Received shadow is shade: it has exactly the shade's
-/// colour, or that of the dark end of a [`ShadeRamp`](super::ShadeRamp). A face with a
-/// [`FaceShadow`](super::FaceShadow) receives it only where its map leaves it to normal shading: on the neck.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct CastShadow {
-    /// Whether it casts. Default: true.
-    pub casts: bool,
-    /// How far it receives: 0 not at all, 1 whole. Range 0..1. Default: 1.
-    pub received: f32,
+crate::section! {
+    /// Part of a material in [`SelfShadow`](crate::scene::SelfShadow). Received shadow is shade: it has exactly the shade's
+    /// colour, or that of the dark end of a [`ShadeRamp`](super::ShadeRamp). A face with a
+    /// [`FaceShadow`](super::FaceShadow) receives it only where its map leaves it to normal shading: on the neck.
+    #[derive(Copy)]
+    CastShadow = "cast_shadow" {
+        needs: &["shadow"],
+        channel: Some((
+            "self-shadow",
+            "Share of the key light that a character lets through to itself; black where nothing receives its shadow.",
+        )),
+    }
+    {
+        /// Whether it casts.
+        casts: bool = true;
+        /// How far it receives: 0 not at all, 1 whole.
+        received: f32 = 1.0, in 0.0..=1.0;
+    }
 }
 
-impl Default for CastShadow {
-    fn default() -> Self {
-        Self { casts: true, received: 1.0 }
+impl Section for CastShadow {
+    fn put(&self, gpu: &mut Block<'_>, _: &Surroundings<'_>) {
+        gpu.put("received", self.received);
+    }
+
+    fn is_on(&self, of: &Surroundings<'_>) -> bool {
+        of.self_shadow && self.received > 0.0
     }
 }

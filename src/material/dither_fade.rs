@@ -1,21 +1,25 @@
 //! Fading without blending.
 
-use serde::{Deserialize, Serialize};
+use super::{Section, Surroundings};
+use crate::render::layout::Block;
 
-/// Leaves out samples of pixels in an even pattern, or whole pixels where each has one sample: a surface fades without
-/// being sorted, as when the camera comes too near, and nothing behind its own front is seen. Blended materials
-/// fade by their alpha. A fading surface goes on casting its whole shadow.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct DitherFade {
-    /// Share that is left. Range 0..1. Default: 1.
-    pub opacity: f32,
-    /// Distances from the camera at which it is gone and at which it is whole, metres, growing. Range 0... Default: (0, 0).
-    pub near_m: [f32; 2],
+crate::section! {
+    /// Leaves out samples of pixels in an even pattern, or whole pixels where each has one sample: a surface fades without
+    /// being sorted, as when the camera comes too near, and nothing behind its own front is seen. Blended materials
+    /// fade by their alpha. A fading surface goes on casting its whole shadow.
+    #[derive(Copy)]
+    DitherFade = "dither_fade" { unlit: true, on_line: true, needs: &["world"] }
+    {
+        /// Share that is left.
+        opacity: f32 = 1.0, in 0.0..=1.0;
+        /// Distances from the camera at which it is gone and at which it is whole, metres, growing.
+        near_m: [f32; 2] = [0.0; 2], in 0.0..=1000000.0;
+    }
 }
 
-impl Default for DitherFade {
-    fn default() -> Self {
-        Self { opacity: 1.0, near_m: [0.0; 2] }
+impl Section for DitherFade {
+    fn put(&self, gpu: &mut Block<'_>, _: &Surroundings<'_>) {
+        gpu.put("opacity", self.opacity);
+        gpu.put("near_m", self.near_m);
     }
 }

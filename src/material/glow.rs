@@ -1,19 +1,23 @@
 //! Light that blooms.
 
-use serde::{Deserialize, Serialize};
+use super::{Section, Surroundings};
+use crate::render::layout::Block;
 
-/// What of a surface [`Bloom`](crate::scene::Bloom) spreads around it; nothing else blooms.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct Glow {
-    /// Share of its emission, and of fire. Range 0..10. Default: 1.
-    pub emission: f32,
-    /// Share of its highlights and sparks. Range 0..10. Default: 0.
-    pub highlight: f32,
+crate::section! {
+    /// What of a surface [`Bloom`](crate::scene::Bloom) spreads around it; nothing else blooms.
+    #[derive(Copy)]
+    Glow = "glow" { unlit: true }
+    {
+        /// Share of its emission, and of fire.
+        emission: f32 = 1.0, in 0.0..=10.0;
+        /// Share of its highlights and sparks.
+        highlight: f32 = 0.0, in 0.0..=10.0;
+    }
 }
 
-impl Default for Glow {
-    fn default() -> Self {
-        Self { emission: 1.0, highlight: 0.0 }
+impl Section for Glow {
+    fn put(&self, gpu: &mut Block<'_>, _: &Surroundings<'_>) {
+        gpu.put("emission", self.emission);
+        gpu.put("highlight", self.highlight);
     }
 }

@@ -1,26 +1,34 @@
 //! Lines inside of the shape, found in the picture.
 
-use serde::{Deserialize, Serialize};
+use super::{Section, Surroundings};
+use crate::render::layout::Block;
 
-/// Lines where the surface borders on another part, steps in depth or folds: what an inverted hull cannot draw. They darken
-/// what they are drawn on. Half of a line lies on each side, if both have this section.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct InnerLines {
-    /// What the surface's colour is multiplied by, linear. Range 0..1. Default: (0.3, 0.22, 0.28).
-    pub color: [f32; 3],
-    /// Width, pixels of a picture 1024 high; it grows with the picture. Range 0..16. Default: 2.
-    pub width_px: f32,
-    /// Least step in depth, metres. Range 0.001... Default: 0.02.
-    pub step_m: f32,
-    /// Least fold between two normals, radians. Range 0..π. Default: 1.
-    pub fold_rad: f32,
-    /// Draws the borders between parts, too. Default: true.
-    pub between_parts: bool,
+crate::section! {
+    /// Lines where the surface borders on another part, steps in depth or folds: what an inverted hull cannot draw. They darken
+    /// what they are drawn on. Half of a line lies on each side, if both have this section.
+    #[derive(Copy)]
+    InnerLines = "inner_lines" {
+        needs: &["prepass", "prepass_surfaces"], channel: Some(("inner-lines", "Lines inside of the shape.")),
+    }
+    {
+        /// What the surface's colour is multiplied by, linear.
+        color: [f32; 3] = [0.3, 0.22, 0.28], in 0.0..=1.0;
+        /// Width, pixels of a picture 1024 high; it grows with the picture.
+        width_px: f32 = 2.0, in 0.0..=16.0;
+        /// Least step in depth, metres.
+        step_m: f32 = 0.02, in 0.001..=1000000.0;
+        /// Least fold between two normals, radians.
+        fold_rad: f32 = 1.0, in 0.0..=3.1416;
+        /// Draws the borders between parts, too.
+        between_parts: bool = true;
+    }
 }
 
-impl Default for InnerLines {
-    fn default() -> Self {
-        Self { color: [0.3, 0.22, 0.28], width_px: 2.0, step_m: 0.02, fold_rad: 1.0, between_parts: true }
+impl Section for InnerLines {
+    fn put(&self, gpu: &mut Block<'_>, _: &Surroundings<'_>) {
+        gpu.put("tint", self.color);
+        gpu.put("width", self.width_px);
+        gpu.put("steps", [self.step_m, self.fold_rad.cos()]);
+        gpu.put("parts", f32::from(u8::from(self.between_parts)));
     }
 }

@@ -1,20 +1,30 @@
 //! A card in a stack, as flat eyes are built.
 
-use serde::{Deserialize, Serialize};
+use super::{Section, Surroundings};
+use crate::render::layout::Block;
 
-/// Place in a stack of cards that lie on one another: white of the eye, iris, lights.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct Layer {
-    /// Higher ones lie over lower ones wherever they coincide. Each stands 0.1 mm nearer to the viewer than the one below,
-    /// which no picture shows but the depth test sees at any distance up to 20 m. Range -8..8. Default: 0.
-    pub index: i32,
-    /// 1: lit colour in any shade, as lights of eyes are drawn. Range 0..1. Default: 0.
-    pub stay_lit: f32,
+/// Distance between two cards of a stack, metres.
+const STEP_M: f32 = 1e-4;
+
+crate::section! {
+    /// Place in a stack of cards that lie on one another: white of the eye, iris, lights.
+    #[derive(Copy)]
+    Layer = "layer" {
+        unlit: true, on_line: true,
+        channel: Some(("layer", "Index of cards in a stack, lighter above; black elsewhere.")),
+    }
+    {
+        /// Higher ones lie over lower ones wherever they coincide. Each stands 0.1 mm nearer to the viewer than the one below,
+        /// which no picture shows but the depth test sees at any distance up to 20 m.
+        index: i32 = 0, in -8..=8;
+        /// 1: lit colour in any shade, as lights of eyes are drawn.
+        stay_lit: f32 = 0.0, in 0.0..=1.0;
+    }
 }
 
-impl Default for Layer {
-    fn default() -> Self {
-        Self { index: 0, stay_lit: 0.0 }
+impl Section for Layer {
+    fn put(&self, gpu: &mut Block<'_>, _: &Surroundings<'_>) {
+        gpu.put("pull", self.index as f32 * STEP_M);
+        gpu.put("stay_lit", self.stay_lit);
     }
 }

@@ -1,21 +1,25 @@
 //! How much of the scene's light a material takes.
 
-use serde::{Deserialize, Serialize};
+use super::{Section, Surroundings};
+use crate::render::layout::Block;
 
-/// Keeps a character readable in any light: bounds on its luminance, and how far its colour counts.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct LightResponse {
-    /// Least luminance of the direct light that is taken. Range 0..1. Default: 0.
-    pub min: f32,
-    /// Greatest luminance. Range 0..10. Default: 1.
-    pub max: f32,
-    /// 0 takes the light's colour, 1 its luminance alone. Range 0..1. Default: 0.
-    pub monochrome: f32,
+crate::section! {
+    /// Keeps a character readable in any light: bounds on its luminance, and how far its colour counts.
+    #[derive(Copy)]
+    LightResponse = "light_response" { on_line: true }
+    {
+        /// Least luminance of the direct light that is taken.
+        min: f32 = 0.0, in 0.0..=1.0;
+        /// Greatest luminance.
+        max: f32 = 1.0, in 0.0..=10.0;
+        /// 0 takes the light's colour, 1 its luminance alone.
+        monochrome: f32 = 0.0, in 0.0..=1.0;
+    }
 }
 
-impl Default for LightResponse {
-    fn default() -> Self {
-        Self { min: 0.0, max: 1.0, monochrome: 0.0 }
+impl Section for LightResponse {
+    fn put(&self, gpu: &mut Block<'_>, _: &Surroundings<'_>) {
+        gpu.put("bounds", [self.min, self.max]);
+        gpu.put("monochrome", self.monochrome);
     }
 }

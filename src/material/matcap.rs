@@ -1,19 +1,27 @@
 //! Matcap: a picture of light on a sphere, looked up by the normal seen from the camera.
 
-use serde::{Deserialize, Serialize};
+use super::{Section, Surroundings, TextureRef};
+use crate::render::layout::Block;
+use crate::scene::ColorTarget;
 
-/// Matcap of MToon; added to the rim before its mask.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct Matcap {
-    /// Index in [`Scene::textures`](crate::scene::Scene::textures); sRGB, no UV transform.
-    pub texture: usize,
-    /// Factor, linear. Default: white.
-    pub color: [f32; 3],
+crate::section! {
+    /// Matcap of MToon; added to the rim before its mask.
+    #[derive(Copy)]
+    Matcap = "matcap" { on_line: true, of_file: true }
+    {
+        /// Picture, sRGB; its transform does nothing.
+        texture: TextureRef = TextureRef::default(), read LOOKUP;
+        /// Factor, linear; files hold 0 to 1.
+        color: [f32; 3] = [1.0; 3], in 0.0..=100.0;
+    }
 }
 
-impl Default for Matcap {
-    fn default() -> Self {
-        Self { texture: 0, color: [1.0; 3] }
+impl Section for Matcap {
+    fn put(&self, gpu: &mut Block<'_>, _: &Surroundings<'_>) {
+        gpu.put("color", self.color);
+    }
+
+    fn is_on(&self, of: &Surroundings<'_>) -> bool {
+        self.color != [0.0; 3] || of.driven.shifts(ColorTarget::MatcapColor)
     }
 }

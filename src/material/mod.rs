@@ -1,166 +1,154 @@
 //! What a surface looks like: plain sections with public fields. MToon 1.0 maps onto it without loss.
+//!
+//! A look is one section: a Rust file here, a WGSL file of the same stem in `wgsl/look`, and one line in the list below.
 
 mod alpha;
 mod authored;
-mod bangs_shadow;
-mod base;
-mod cast_shadow;
-mod decal;
-mod depth_rim;
-mod diamond;
-mod dissolve;
-mod dither_fade;
-mod face_paint;
-mod face_shadow;
-mod fire;
-mod fluff;
-mod fur_detail;
-mod gem;
-mod glow;
-mod highlight;
-mod inner_lines;
-mod layer;
-mod light_response;
-mod matcap;
-mod outline;
-mod rim;
-mod shade_ramp;
-mod shaped_highlight;
-mod sparkle;
-mod stocking;
-mod toon;
-mod transition;
-mod uv_animation;
+mod own;
+pub(crate) mod section;
+mod texture_ref;
 
 pub use alpha::{Alpha, AlphaMode};
 pub use authored::{Authored, Substance};
-pub use bangs_shadow::BangsShadow;
-pub use base::{Base, Blink, Emission, NormalMap, TextureRef, UvTransform};
-pub use cast_shadow::CastShadow;
-pub use decal::{Decal, Decals, MAX_DECALS};
-pub use depth_rim::DepthRim;
-pub use diamond::Diamond;
-pub use dissolve::Dissolve;
-pub use dither_fade::DitherFade;
-pub use face_paint::FacePaint;
-pub use face_shadow::{AngleMapping, FaceShadow};
-pub use fire::Fire;
-pub use fluff::{Fluff, MAX_SHELLS};
-pub use fur_detail::FurDetail;
-pub use gem::Gem;
-pub use glow::Glow;
-pub use highlight::Highlight;
-pub use inner_lines::InnerLines;
-pub use layer::Layer;
-pub use light_response::LightResponse;
-pub use matcap::Matcap;
-pub use outline::{Outline, OutlineTint, OutlineWidth, PartColors, TintSource};
-pub use rim::Rim;
-pub use shade_ramp::{MAX_PARTS, RampMaps, ShadeRamp};
-pub use shaped_highlight::ShapedHighlight;
-pub use sparkle::Sparkle;
-pub use stocking::Stocking;
-pub use toon::{Shading, Toon};
-pub use transition::Transition;
-pub use uv_animation::UvAnimation;
+pub use own::{OwnSection, register};
+pub use section::{
+    About, Declared, Encoding, Field, Fields, Kind, Leaf, Options, Part, Preset, Read, Section, Surroundings, UNBOUNDED,
+    Walk,
+};
+pub use texture_ref::{TextureRef, UvTransform};
 
+pub(crate) use own::registered;
+pub(crate) use section::plain_parts;
+
+use section::{Held, sections};
 use serde::{Deserialize, Serialize};
 
-/// A material.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct Material {
-    /// Name in the file; may be empty.
-    pub name: String,
-    /// Which description in the file it was made from.
-    pub origin: Origin,
+// The one list. Its order is the order inside of a stage of shading, and that of the places in the uniform.
+sections! {
     /// Lit colour.
-    pub base: Base,
-    /// Opacity and draw order.
-    pub alpha: Alpha,
-    /// Draws back faces too, with their normals turned. Default: false.
-    pub double_sided: bool,
+    base: Base,
     /// Tangent-space normal map. Default: none.
-    pub normal_map: Option<NormalMap>,
+    normal_map: Option<NormalMap>,
     /// Light of its own.
-    pub emission: Emission,
+    emission: Emission,
     /// Moves UVs over time.
-    pub uv_animation: UvAnimation,
-    /// How light becomes colour.
-    pub shading: Shading,
-    /// Shadow of a face by a threshold map. Default: none.
-    pub face_shadow: Option<FaceShadow>,
-    /// Tint of light that is about to turn into shade. Default: none.
-    pub transition: Option<Transition>,
-    /// Painted steps from shade to light; takes the place of the border and of `transition`. Default: none.
-    pub shade_ramp: Option<ShadeRamp>,
-    /// Bounds of the light that is taken. Default: none.
-    pub light_response: Option<LightResponse>,
-    /// Painted fur. Default: none.
-    pub fur_detail: Option<FurDetail>,
-    /// Blush and lines. Default: none.
-    pub face_paint: Option<FacePaint>,
-    /// Shadow of bangs and of what else stands before the face. Default: none.
-    pub bangs_shadow: Option<BangsShadow>,
-    /// Part in the shadow of the character on itself. Default: none.
-    pub cast_shadow: Option<CastShadow>,
-    /// Painted highlight that moves. Default: none.
-    pub highlight: Option<Highlight>,
-    /// Highlight with a drawn shape. Default: none.
-    pub shaped_highlight: Option<ShapedHighlight>,
-    /// Sparks that flash one by one. Default: none.
-    pub sparkle: Option<Sparkle>,
-    /// A stone that is seen into. Default: none.
-    pub gem: Option<Gem>,
-    /// A cut stone that throws light back. Default: none.
-    pub diamond: Option<Diamond>,
-    /// Fire. Default: none.
-    pub fire: Option<Fire>,
-    /// A coat of short hair. Default: none.
-    pub fluff: Option<Fluff>,
-    /// What of it blooms. Default: none.
-    pub glow: Option<Glow>,
-    /// Thin knit over it. Default: none.
-    pub stocking: Option<Stocking>,
-    /// Pictures laid over it. Default: none.
-    pub decals: Option<Decals>,
+    uv_animation: UvAnimation,
     /// Burns away. Default: none.
-    pub dissolve: Option<Dissolve>,
+    dissolve: Option<Dissolve>,
     /// Fades pixel by pixel. Default: none.
-    pub dither_fade: Option<DitherFade>,
-    /// What the file carries for looks that use it.
-    pub authored: Authored,
+    dither_fade: Option<DitherFade>,
+    /// How light becomes colour.
+    shading: Shading => toon,
+    /// Bounds of the light that is taken. Default: none.
+    light_response: Option<LightResponse>,
+    /// Painted fur. Default: none.
+    fur_detail: Option<FurDetail>,
+    /// Thin knit over it. Default: none.
+    stocking: Option<Stocking>,
+    /// Pictures laid over it. Default: none.
+    decals: Option<Decals>,
+    /// Painted steps from shade to light; takes the place of the border and of `transition`. Default: none.
+    shade_ramp: Option<ShadeRamp>,
+    /// Shadow of a face by a threshold map. Default: none.
+    face_shadow: Option<FaceShadow>,
+    /// Part in the shadow of the character on itself. Default: none.
+    cast_shadow: Option<CastShadow>,
     /// Place in a stack of cards. Default: none.
-    pub layer: Option<Layer>,
+    layer: Option<Layer>,
+    /// Blush and lines. Default: none.
+    face_paint: Option<FacePaint>,
+    /// Tint of light that is about to turn into shade. Default: none.
+    transition: Option<Transition>,
+    /// Shadow of bangs and of what else stands before the face. Default: none.
+    bangs_shadow: Option<BangsShadow>,
+    /// A stone that is seen into. Default: none.
+    gem: Option<Gem>,
+    /// A cut stone that throws light back. Default: none.
+    diamond: Option<Diamond>,
+    /// Fire. Default: none.
+    fire: Option<Fire>,
+    /// Painted highlight that moves. Default: none.
+    highlight: Option<Highlight>,
     /// A picture of light looked up by the view-space normal. Default: none.
-    pub matcap: Option<Matcap>,
+    matcap: Option<Matcap>,
+    /// Highlight with a drawn shape. Default: none.
+    shaped_highlight: Option<ShapedHighlight>,
+    /// Sparks that flash one by one. Default: none.
+    sparkle: Option<Sparkle>,
     /// Light along the contour.
-    pub rim: Rim,
+    rim: Rim,
     /// Light along the contour, by depth. Default: none.
-    pub depth_rim: Option<DepthRim>,
-    /// Line around the shape. Default: none.
-    pub outline: Option<Outline>,
+    depth_rim: Option<DepthRim>,
     /// Lines inside of it. Default: none.
-    pub inner_lines: Option<InnerLines>,
+    inner_lines: Option<InnerLines>,
+    /// Line around the shape. Default: none.
+    outline: Option<Outline>,
+    /// A coat of short hair. Default: none.
+    fluff: Option<Fluff>,
+    /// What of it blooms. Default: none.
+    glow: Option<Glow>,
 }
 
 impl Material {
-    /// The map that tells its parts apart; ramps and lines share one.
-    pub(crate) fn part_ids(&self) -> Option<TextureRef> {
-        let of_ramp = self.shade_ramp.and_then(|r| r.maps?.part_ids);
-        of_ramp.or_else(|| Some(self.outline?.tint?.parts?.part_ids))
+    /// Its sections, in the order of the list; those of an application follow.
+    pub fn sections(&self) -> impl Iterator<Item = &dyn Section> {
+        self.listed().into_iter().flatten().chain(self.own.iter().map(OwnSection::section))
     }
 
-    /// Whether it burns: fire is seen through.
-    pub(crate) fn is_fire(&self) -> bool {
+    /// The same to change.
+    pub(crate) fn sections_mut(&mut self) -> impl Iterator<Item = &mut dyn Section> {
+        let (listed, own) = self.listed_mut();
+        listed.into_iter().flatten().chain(own.iter_mut().map(OwnSection::section_mut))
+    }
+
+    /// Whether it is fire, which has neither a colour of its own nor light on it.
+    pub(crate) fn burns(&self) -> bool {
         self.fire.is_some() && self.alpha.mode == AlphaMode::Blend
     }
 
-    /// The painted picture of a highlight, of a highlight's shape, or of fire: a material has one.
-    pub(crate) fn painted_highlight(&self) -> Option<TextureRef> {
-        let shape = || self.shaped_highlight.and_then(|s| s.map);
-        self.fire.filter(|_| self.is_fire()).and_then(|f| f.heat).or(self.highlight.map(|h| h.map)).or_else(shape)
+    /// Visits every texture: section, path of the field, field, value.
+    pub(crate) fn each_texture(&mut self, visit: &mut dyn FnMut(&'static About, &[&'static str], Read, &mut TextureRef)) {
+        for section in self.sections_mut() {
+            let about = section.about();
+            section.walk_fields(&mut Walk::new(&mut |path, field, leaf| {
+                if let (Kind::Texture(read), Leaf::Texture(texture)) = (field.kind, leaf) {
+                    visit(about, path, read, texture);
+                }
+            }));
+        }
     }
+
+    /// Its textures and those that looks may use of its file: what each is for, its index, what its numbers mean.
+    #[must_use]
+    pub fn textures(&self) -> Vec<(String, usize, Encoding)> {
+        let (mut copy, mut list) = (self.clone(), Vec::new());
+        copy.each_texture(&mut |about, path, read, texture| {
+            list.push((format!("{}.{}", about.key, path.join(".")), texture.texture, read.encoding));
+        });
+        copy.authored.each_texture(&mut |name, read, texture| {
+            list.push((format!("authored.{name}"), texture.texture, read.encoding));
+        });
+        list
+    }
+
+    /// A number that is out of its range: its key and what is wrong with it.
+    pub(crate) fn out_of_range(&mut self) -> Option<(String, String)> {
+        self.sections_mut().find_map(|section| {
+            let (key, message) = section.out_of_range()?;
+            Some((format!("{}.{key}", section.about().key), message))
+        })
+    }
+
+    /// The same with every number within its range.
+    pub(crate) fn clamped(mut self) -> Self {
+        self.sections_mut().for_each(|section| section.clamp());
+        self
+    }
+}
+
+/// Every section that there is, in the order of the list; those of an application follow.
+pub fn all() -> impl Iterator<Item = &'static About> {
+    LISTED.iter().copied().chain(registered().into_iter().map(|r| r.about))
 }
 
 /// The description that a [`Material`] was made from.

@@ -2,43 +2,32 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{MAX_PARTS, TextureRef};
+use super::{Field, MAX_PARTS, Options, Part, Section, Surroundings, TextureRef, Walk, plain_parts};
+use crate::color::hue_saturation_columns;
+use crate::render::layout::Block;
+use crate::scene::ColorTarget;
 
-/// Outline.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct Outline {
-    /// Width and its unit. Default: world, 0.
-    pub width: OutlineWidth,
-    /// Least and greatest width of a line in the world, pixels of a picture 1024 high. Range 0.., growing. Default: none.
-    pub clamp_px: Option<[f32; 2]>,
-    /// Mask of the width: green channel, linear. Default: none.
-    pub width_mask: Option<TextureRef>,
-    /// Multiplies the width by the red channel of the vertex colour. Default: false.
-    pub vertex_width: bool,
-    /// Moves the hull away from the viewer, metres: hides lines inside of the shape that are nearer to it. Range 0..0.1.
-    /// Default: 0.
-    pub push_m: f32,
-    /// Colour, linear. Default: black.
-    pub color: [f32; 3],
-    /// 0 ignores the surface's shading, 1 multiplies by the shaded colour. Range 0..1. Default: 1.
-    pub lighting_mix: f32,
-    /// Colour that comes from the surface; `color` and `lighting_mix` do nothing then. Default: none.
-    pub tint: Option<OutlineTint>,
-}
-
-impl Default for Outline {
-    fn default() -> Self {
-        Self {
-            width: OutlineWidth::World { metres: 0.0 },
-            clamp_px: None,
-            width_mask: None,
-            vertex_width: false,
-            push_m: 0.0,
-            color: [0.0; 3],
-            lighting_mix: 1.0,
-            tint: None,
-        }
+crate::section! {
+    /// Outline.
+    #[derive(Copy)]
+    Outline = "outline" { unlit: true, of_file: true }
+    {
+        /// Width and its unit: metres, or a share of the picture's height.
+        width: OutlineWidth = OutlineWidth::World { metres: 0.0 }, in 0.0..=10.0;
+        /// Least and greatest width of a line in the world, pixels of a picture 1024 high, growing.
+        clamp_px: Option<[f32; 2]> = None, in 0.0..=1000000.0;
+        /// Mask of the width: green channel, linear.
+        width_mask: Option<TextureRef> = None, read LINEAR;
+        /// Multiplies the width by the red channel of the vertex colour.
+        vertex_width: bool = false;
+        /// Moves the hull away from the viewer, metres: hides lines inside of the shape that are nearer to it.
+        push_m: f32 = 0.0, in 0.0..=0.1;
+        /// Colour, linear; files hold 0 to 1.
+        color: [f32; 3] = [0.0; 3], in 0.0..=100.0;
+        /// 0 ignores the surface's shading, 1 multiplies by the shaded colour.
+        lighting_mix: f32 = 1.0, in 0.0..=1.0;
+        /// Colour that comes from the surface; `color` and `lighting_mix` do nothing then.
+        tint: Option<OutlineTint> = None, part OutlineTint;
     }
 }
 
@@ -48,45 +37,51 @@ impl Default for Outline {
 pub enum OutlineWidth {
     /// Metres in the world: thinner with distance.
     World {
-        /// Width, metres. Range 0...
+        /// Width, metres.
         metres: f32,
     },
     /// Share of the picture's height: the same at any distance.
     Screen {
-        /// Width over picture height. Range 0...
+        /// Width over picture height.
         height_ratio: f32,
     },
 }
 
-/// Colour of a line from the surface that it surrounds: darker, with another hue, and never brighter than the light that
-/// falls on the character. It does not change along the line, as one that is drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct OutlineTint {
-    /// Which of its colours. Default: that in shade.
-    pub from: TintSource,
-    /// Exponent of that colour: more makes it darker and more saturated. Range 0.5..4. Default: 1.5.
-    pub gamma: f32,
-    /// Turn of its hue, radians, from red towards yellow. Range -π..π. Default: 0.
-    pub hue_rad: f32,
-    /// Its saturation; 1 leaves it. Range 0..4. Default: 1.2.
-    pub saturation: f32,
-    /// What it is multiplied by, linear. Default: (0.42, 0.36, 0.4).
-    pub factor: [f32; 3],
-    /// Colours of parts that an id map tells apart. Default: none.
-    pub parts: Option<PartColors>,
+impl OutlineWidth {
+    /// Its number, whatever the unit.
+    #[must_use]
+    pub fn value(self) -> f32 {
+        match self {
+            Self::World { metres: width } | Self::Screen { height_ratio: width } => width,
+        }
+    }
 }
 
-impl Default for OutlineTint {
-    fn default() -> Self {
-        Self {
-            from: TintSource::Shade,
-            gamma: 1.5,
-            hue_rad: 0.0,
-            saturation: 1.2,
-            factor: [0.42, 0.36, 0.4],
-            parts: None,
+impl Part for OutlineWidth {
+    fn walk(&mut self, field: &'static Field, walk: &mut Walk<'_>) {
+        match self {
+            Self::World { metres: width } | Self::Screen { height_ratio: width } => width.walk(field, walk),
         }
+    }
+}
+
+crate::part! {
+    /// Colour of a line from the surface that it surrounds: darker, with another hue, and never brighter than the light that
+    /// falls on the character. It does not change along the line, as one that is drawn.
+    #[derive(Copy)]
+    OutlineTint {
+        /// Which of its colours.
+        from: TintSource = TintSource::Shade;
+        /// Exponent of that colour: more makes it darker and more saturated.
+        gamma: f32 = 1.5, in 0.5..=4.0;
+        /// Turn of its hue, radians, from red towards yellow.
+        hue_rad: f32 = 0.0, in -3.1416..=3.1416;
+        /// Its saturation; 1 leaves it.
+        saturation: f32 = 1.2, in 0.0..=4.0;
+        /// What it is multiplied by, linear.
+        factor: [f32; 3] = [0.42, 0.36, 0.4], in 0.0..=10.0;
+        /// Colours of parts that an id map tells apart.
+        parts: Option<PartColors> = None, part PartColors;
     }
 }
 
@@ -100,20 +95,53 @@ pub enum TintSource {
     #[default]
     Shade,
 }
+plain_parts!(TintSource);
 
-/// Colours of lines by the part that they surround.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct PartColors {
-    /// Part ids, linear: the number of a part in the red channel, from 1 on; others keep the colour of the surface. A
-    /// [`ShadeRamp`](super::ShadeRamp) that has part ids lends its map: a material has one.
-    pub part_ids: TextureRef,
-    /// Colour of each part, linear. Default: black.
-    pub colors: [[f32; 3]; MAX_PARTS],
+crate::part! {
+    /// Colours of lines by the part that they surround.
+    #[derive(Copy)]
+    PartColors {
+        /// Part ids, linear: the number of a part in the red channel, from 1 on; others keep the colour of the surface.
+        part_ids: TextureRef = TextureRef::default(), read LINEAR;
+        /// Colour of each part, linear.
+        colors: [[f32; 3]; MAX_PARTS] = [[0.0; 3]; MAX_PARTS], in 0.0..=1.0;
+    }
 }
 
-impl Default for PartColors {
-    fn default() -> Self {
-        Self { part_ids: TextureRef::default(), colors: [[0.0; 3]; MAX_PARTS] }
+impl Outline {
+    /// Whether the surface must be shaded for the colour of the line: black stays black whatever the light.
+    fn is_mixed(&self, of: &Surroundings<'_>) -> bool {
+        let has_color = self.color != [0.0; 3] || of.driven.shifts(ColorTarget::OutlineColor);
+        self.tint.is_none() && self.lighting_mix > 0.0 && has_color
+    }
+}
+
+impl Section for Outline {
+    fn put(&self, gpu: &mut Block<'_>, _: &Surroundings<'_>) {
+        let tint = self.tint.unwrap_or_default();
+        gpu.put("color", self.color);
+        gpu.put("width", self.width.value());
+        gpu.put("lighting_mix", self.lighting_mix);
+        gpu.put("gamma", tint.gamma);
+        gpu.put("tint", tint.factor);
+        gpu.put("push", self.push_m);
+        gpu.put("bounds", self.clamp_px.unwrap_or_default());
+        gpu.put("shift", hue_saturation_columns(tint.hue_rad, tint.saturation));
+        gpu.put("parts", tint.parts.unwrap_or_default().colors.map(|[r, g, b]| [r, g, b, 1.0]));
+    }
+
+    fn options(&self, on: &mut Options, of: &Surroundings<'_>) {
+        let is_screen = matches!(self.width, OutlineWidth::Screen { .. });
+        on.set("outline_screen", is_screen);
+        on.set("outline_bounds", self.clamp_px.is_some() && !is_screen);
+        on.set("outline_push", self.push_m > 0.0);
+        on.set("outline_mixed", self.is_mixed(of));
+        on.set("outline_tint", self.tint.is_some());
+        on.set("outline_from_shade", self.tint.is_some_and(|t| t.from == TintSource::Shade));
+        on.set("outline_vertex_width", self.vertex_width);
+    }
+
+    fn is_on(&self, _: &Surroundings<'_>) -> bool {
+        self.width.value() > 0.0
     }
 }

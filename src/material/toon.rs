@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::TextureRef;
+use super::{About, Options, Section, Surroundings, TextureRef, section::Held};
+use crate::render::layout::Block;
 
 /// Shading model.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -20,36 +21,57 @@ impl Default for Shading {
     }
 }
 
-/// Two-tone shading of `VRMC_materials_mtoon` 1.0.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct Toon {
-    /// Colour in shade, linear. Range 0..1. Default: black, as in the specification.
-    pub shade_color: [f32; 3],
-    /// Texture of the shade colour, sRGB; multiplies it. Default: none.
-    pub shade_texture: Option<TextureRef>,
-    /// Moves the band: positive lights more. Range -1..1. Default: 0.
-    pub shift: f32,
-    /// Adds its red channel, linear, times `shift_texture_scale` to `shift`. Default: none.
-    pub shift_texture: Option<TextureRef>,
-    /// Scale of the shift texture. Default: 1.
-    pub shift_texture_scale: f32,
-    /// Hardness of the band: 0 is Lambert-soft, 1 a hard edge. Range 0..1. Default: 0.9.
-    pub toony: f32,
-    /// 0 keeps the direction of ambient light, 1 makes it even. Range 0..1. Default: 0.9.
-    pub gi_equalization: f32,
+impl Held for Shading {
+    const ABOUT: &'static About = &Toon::ABOUT;
+
+    fn held(&self) -> Option<&dyn Section> {
+        match self {
+            Self::Toon(toon) => Some(toon),
+            Self::Unlit => None,
+        }
+    }
+
+    fn held_mut(&mut self) -> Option<&mut dyn Section> {
+        match self {
+            Self::Toon(toon) => Some(toon),
+            Self::Unlit => None,
+        }
+    }
 }
 
-impl Default for Toon {
-    fn default() -> Self {
-        Self {
-            shade_color: [0.0; 3],
-            shade_texture: None,
-            shift: 0.0,
-            shift_texture: None,
-            shift_texture_scale: 1.0,
-            toony: 0.9,
-            gi_equalization: 0.9,
-        }
+crate::section! {
+    /// Two-tone shading of `VRMC_materials_mtoon` 1.0.
+    #[derive(Copy)]
+    Toon = "toon" { is_model: true, on_line: true, of_file: true }
+    {
+        /// Colour in shade, linear; files hold 0 to 1. Black as in the specification.
+        shade_color: [f32; 3] = [0.0; 3], in 0.0..=100.0;
+        /// Texture of the shade colour, sRGB; multiplies it.
+        shade_texture: Option<TextureRef> = None, read SRGB;
+        /// Moves the band: positive lights more; files hold -1 to 1.
+        shift: f32 = 0.0, in -10.0..=10.0;
+        /// Adds its red channel, linear, times `shift_texture_scale` to `shift`.
+        shift_texture: Option<TextureRef> = None, read LINEAR;
+        /// Scale of the shift texture.
+        shift_texture_scale: f32 = 1.0, in -100.0..=100.0;
+        /// Hardness of the band: 0 is Lambert-soft, 1 a hard edge.
+        toony: f32 = 0.9, in 0.0..=1.0;
+        /// 0 keeps the direction of ambient light, 1 makes it even.
+        gi_equalization: f32 = 0.9, in 0.0..=1.0;
+    }
+}
+
+impl Section for Toon {
+    fn put(&self, gpu: &mut Block<'_>, _: &Surroundings<'_>) {
+        gpu.put("shade_color", self.shade_color);
+        gpu.put("shift", self.shift);
+        gpu.put("shift_texture_scale", self.shift_texture_scale);
+        gpu.put("toony", self.toony);
+        gpu.put("gi_equalization", self.gi_equalization);
+    }
+
+    fn options(&self, on: &mut Options, of: &Surroundings<'_>) {
+        // One lookup serves both.
+        on.set("shade_is_base", self.shade_texture.is_some() && self.shade_texture == of.material.base.texture);
     }
 }

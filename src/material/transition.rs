@@ -1,23 +1,39 @@
 //! A gentle second band on the lit side of the border of light and shade.
 
-use serde::{Deserialize, Serialize};
+use super::{Options, Section, Surroundings};
+use crate::render::layout::Block;
 
-/// Light that passes into shade through a colour, as it does through skin: the lit colour is tinted where the surface is
-/// about to turn dark. Works on normals and on a [`FaceShadow`](super::FaceShadow) alike.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct Transition {
-    /// What the lit colour is multiplied by at the border, linear. Range 0..1. Default: a warm blush, (1, 0.86, 0.81).
-    pub color: [f32; 3],
-    /// Strength. Range 0..1. Default: 1.
-    pub strength: f32,
-    /// How far it reaches from the border into the light: in angle over π on a face with a map, in N·L elsewhere.
-    /// Range 0.01..1. Default: 0.2.
-    pub width: f32,
+crate::section! {
+    /// Light that passes into shade through a colour, as it does through skin: the lit colour is tinted where the surface is
+    /// about to turn dark. Works on normals and on a [`FaceShadow`](super::FaceShadow) alike; a
+    /// [`ShadeRamp`](super::ShadeRamp) takes its place.
+    #[derive(Copy)]
+    Transition = "transition" {
+        on_line: true,
+        channel: Some(("transition", "Tint of light that is about to turn into shade; white where it does nothing.")),
+    }
+    {
+        /// What the lit colour is multiplied by at the border, linear; a warm blush.
+        color: [f32; 3] = [1.0, 0.86, 0.81], in 0.0..=1.0;
+        /// Strength.
+        strength: f32 = 1.0, in 0.0..=1.0;
+        /// How far it reaches from the border into the light: in angle over π on a face with a map, in N·L elsewhere.
+        width: f32 = 0.2, in 0.01..=1.0;
+    }
 }
 
-impl Default for Transition {
-    fn default() -> Self {
-        Self { color: [1.0, 0.86, 0.81], strength: 1.0, width: 0.2 }
+impl Section for Transition {
+    fn put(&self, gpu: &mut Block<'_>, _: &Surroundings<'_>) {
+        gpu.put("color", self.color);
+        gpu.put("strength", self.strength);
+        gpu.put("width", self.width);
+    }
+
+    fn options(&self, on: &mut Options, _: &Surroundings<'_>) {
+        on.set("soft", true);
+    }
+
+    fn is_on(&self, of: &Surroundings<'_>) -> bool {
+        of.material.shade_ramp.is_none() && self.strength > 0.0
     }
 }

@@ -1,21 +1,22 @@
 //! UVs that scroll and turn over time (MToon).
 
-use serde::{Deserialize, Serialize};
+use super::{Section, Surroundings, TextureRef};
+use crate::render::layout::Block;
 
-use super::TextureRef;
-
-/// UV animation of MToon; moves all textures but the matcap.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct UvAnimation {
-    /// Mask of the motion: blue channel, linear. Default: none.
-    pub mask: Option<TextureRef>,
-    /// Scroll along u, UV units a second. Default: 0.
-    pub scroll_u_per_s: f32,
-    /// Scroll along v (downwards), UV units a second. Default: 0.
-    pub scroll_v_per_s: f32,
-    /// Rotation about the centre (0.5, 0.5), radians a second, counter-clockwise. Default: 0.
-    pub rotation_rad_per_s: f32,
+crate::section! {
+    /// UV animation of MToon; moves all textures but the matcap.
+    #[derive(Copy)]
+    UvAnimation = "uv_animation" { unlit: true, on_line: true, of_file: true }
+    {
+        /// Mask of the motion: blue channel, linear.
+        mask: Option<TextureRef> = None, read LINEAR;
+        /// Scroll along u, UV units a second.
+        scroll_u_per_s: f32 = 0.0, in -1000.0..=1000.0;
+        /// Scroll along v (downwards), UV units a second.
+        scroll_v_per_s: f32 = 0.0, in -1000.0..=1000.0;
+        /// Rotation about the centre (0.5, 0.5), radians a second, counter-clockwise.
+        rotation_rad_per_s: f32 = 0.0, in -1000.0..=1000.0;
+    }
 }
 
 impl UvAnimation {
@@ -23,5 +24,16 @@ impl UvAnimation {
     #[must_use]
     pub fn is_active(&self) -> bool {
         self.scroll_u_per_s != 0.0 || self.scroll_v_per_s != 0.0 || self.rotation_rad_per_s != 0.0
+    }
+}
+
+impl Section for UvAnimation {
+    fn put(&self, gpu: &mut Block<'_>, _: &Surroundings<'_>) {
+        gpu.put("scroll_per_s", [self.scroll_u_per_s, self.scroll_v_per_s]);
+        gpu.put("rotation_rad_per_s", self.rotation_rad_per_s);
+    }
+
+    fn is_on(&self, _: &Surroundings<'_>) -> bool {
+        self.is_active()
     }
 }

@@ -3,7 +3,7 @@
 use super::Pose;
 use crate::{
     Error, Result,
-    material::{Material, Shading, TextureRef},
+    material::{Material, Shading},
     scene::{ColorTarget, Expression, ExpressionOverride, Scene},
 };
 
@@ -100,12 +100,13 @@ impl Pose {
         for bind in &expression.uv_transforms {
             let Some(rest) = scene.materials.get(bind.material) else { continue };
             let posed = self.materials.entry(bind.material).or_insert_with(|| rest.clone());
-            for texture in textures_mut(posed) {
-                for axis in 0..2 {
+            posed.each_texture(&mut |_, _, read, texture| {
+                // All but those that do not lie on the surface: the matcap and ramps.
+                for axis in (0..2).filter(|_| read.by_uv) {
                     texture.transform.scale[axis] += (bind.scale[axis] - 1.0) * weight;
                     texture.transform.offset[axis] += bind.offset[axis] * weight;
                 }
-            }
+            });
         }
     }
 }
@@ -146,25 +147,4 @@ fn add_color(material: &mut Material, target: ColorTarget, shift: [f32; 4]) {
     for (channel, shift) in color.iter_mut().zip(shift) {
         *channel += shift;
     }
-}
-
-/// Every texture that takes part in `textureTransformBinds`: all but the matcap.
-fn textures_mut(material: &mut Material) -> impl Iterator<Item = &mut TextureRef> {
-    let Material { base, normal_map, emission, uv_animation, shading, rim, outline, .. } = material;
-    let (shade, shift) = match shading {
-        Shading::Toon(toon) => (toon.shade_texture.as_mut(), toon.shift_texture.as_mut()),
-        Shading::Unlit => (None, None),
-    };
-    [
-        base.texture.as_mut(),
-        shade,
-        shift,
-        normal_map.as_mut().map(|n| &mut n.texture),
-        emission.texture.as_mut(),
-        rim.mask.as_mut(),
-        outline.as_mut().and_then(|o| o.width_mask.as_mut()),
-        uv_animation.mask.as_mut(),
-    ]
-    .into_iter()
-    .flatten()
 }

@@ -1,8 +1,10 @@
 //! What moves a character: poses and expressions.
 
+mod driven;
 mod expression;
 mod pose;
 mod stance;
 
+pub use driven::Driven;
 pub use pose::Pose;
 pub use stance::Stance;

@@ -2,119 +2,167 @@
 
 use glam::Vec3;
 
-use super::{
-    Renderer,
-    geometry::Part,
-    pass::{Driven, Mark, SurfaceFlags, color_depth_format},
-    upload::GpuScene,
-};
-use crate::{
-    material::AlphaMode,
-    scene::{Role, Scene},
-};
+use super::geometry::Part;
+use super::material::Composition;
+use super::pass::{Mark, Picture, bangs_shadow, eyes_through, fluff, glow, opaque, outline, prepass, shadow, transparent};
+use super::upload::GpuScene;
+use super::variants::{Drawn, Request};
+use crate::material::{AlphaMode, Material};
+use crate::scene::{Role, Scene};
 
-/// One draw: a range of indices under one material, with the pipelines that show it.
+/// One draw: a range of indices under one material.
 #[derive(Debug)]
 pub(crate) struct Draw {
     pub material: usize,
     pub indices: std::ops::Range<u32>,
     /// Middle of the part at rest, character space.
     pub center: Vec3,
+    pub has_vertex_colors: bool,
     pub blend: bool,
     pub write_depth: bool,
     pub queue_offset: i32,
-    pub surface: wgpu::RenderPipeline,
-    pub outline: Option<wgpu::RenderPipeline>,
-    /// Draws the shells of its coat.
-    pub fluff: Option<wgpu::RenderPipeline>,
-    /// Draws its light that blooms.
-    pub glow: Option<wgpu::RenderPipeline>,
-    pub flags: SurfaceFlags,
-    /// Draws it into the map of the bangs: always where it belongs to another character, for its own face if it casts on
-    /// that.
-    pub bangs: Option<wgpu::RenderPipeline>,
+    /// Whether it casts on its own face, and whether its lids cast on its eyes.
     pub casts_on_face: bool,
-    /// Draws it into the shadow maps of characters.
-    pub shadow: Option<wgpu::RenderPipeline>,
-    /// Where it casts the shadow of lids and lashes.
-    pub lids: Option<wgpu::RenderPipeline>,
+    pub casts_lids: bool,
     pub mark: Mark,
-    /// Draws an eye over the hair before it.
-    pub through: Option<wgpu::RenderPipeline>,
 }
 
-impl Renderer {
-    /// One draw for each opaque material, one for each transparent part; outlines likewise.
-    pub(super) fn make_draws(&mut self, scene: &Scene, parts: &[Part]) -> Vec<Draw> {
-        let driven = Driven::of(scene);
-        let has_stencil = color_depth_format(&self.gpu).has_stencil_aspect();
-        let has_marks = scene.eyes_through.is_some() && has_stencil;
-        let has_lids = scene.bangs.is_some() && scene.materials.iter().any(|m| m.bangs_shadow.is_some_and(|b| b.lids));
-        let blooms = scene.post.is_some_and(|p| p.bloom.is_some());
-        let mut draws: Vec<Draw> = Vec::new();
-        for part in parts {
-            let Some(material) = scene.materials.get(part.material) else { continue };
-            let blend = material.alpha.mode == AlphaMode::Blend;
-            let in_map = scene.bangs.is_some() && !blend;
-            let casts_on_face = in_map && casts_on_face(part.role);
-            let casts_lids = has_lids && matches!(part.role, Role::Face | Role::Lash) && !blend;
-            let mark = if has_marks && !blend {
-                mark(part.role)
-            } else {
-                Mark::None
-            };
-            // Parts are sorted by material, so that those of one material follow each other in the index buffer.
-            if let Some(last) = draws.last_mut()
-                && !blend
-                && last.material == part.material
-                && last.indices.end == part.indices.start
-                && last.casts_on_face == casts_on_face
-                && last.lids.is_some() == casts_lids
-                && last.mark == mark
-            {
-                last.indices.end = part.indices.end;
-                continue;
-            }
-            let mut flags =
-                SurfaceFlags::of(material, &driven[part.material], part.has_vertex_colors, &scene.face_maps);
-            flags.cast_shadow &= scene.self_shadow.is_some();
-            flags.hdr = scene.post.is_some();
-            let casts = scene.self_shadow.is_some() && !blend && material.cast_shadow.is_some_and(|s| s.casts);
-            draws.push(Draw {
-                material: part.material,
-                indices: part.indices.clone(),
-                center: part.center,
-                blend,
-                write_depth: material.alpha.write_depth,
-                queue_offset: material.alpha.queue_offset,
-                surface: if blend {
-                    self.transparent.pipeline(&self.gpu, &self.layouts, flags, material)
-                } else {
-                    self.opaque.pipeline(&self.gpu, &self.layouts, flags, material, mark)
-                },
-                outline: self.outline.pipeline(&self.gpu, &self.layouts, flags, material, &driven[part.material]),
-                fluff: (material.fluff.is_some() && !blend && !flags.unlit).then(|| {
-                    // A coat has no contour of its own, and its holes are strands.
-                    let flags = SurfaceFlags { depth_rim: false, inner_lines: false, alpha_mask: false, ..flags };
-                    self.fluff.pipeline(&self.gpu, &self.layouts, flags)
-                }),
-                glow: (blooms && material.glow.is_some())
-                    .then(|| self.glow.pipeline(&self.gpu, &self.layouts, flags, material)),
-                flags,
-                mark,
-                through: (mark == Mark::Eyes)
-                    .then(|| self.eyes_through.pipeline(&self.gpu, &self.layouts, flags, material)),
-                casts_on_face,
-                bangs: in_map.then(|| self.bangs_shadow.pipeline(&self.gpu, &self.layouts, flags, material)),
-                shadow: casts.then(|| self.shadow.pipeline(&self.gpu, &self.layouts, flags, material)),
-                lids: casts_lids.then(|| self.bangs_shadow.pipeline(&self.gpu, &self.layouts, flags, material)),
-            });
+/// What shows a draw, pass by pass: requests at first, then what was made of them.
+#[derive(Debug)]
+pub(crate) struct Pipelines<P> {
+    pub surface: P,
+    pub outline: Option<P>,
+    /// Draws the shells of its coat.
+    pub fluff: Option<P>,
+    /// Draws its light that blooms.
+    pub glow: Option<P>,
+    /// Draws an eye over the hair before it.
+    pub through: Option<P>,
+    /// Draws it into the map of the bangs.
+    pub bangs: Option<P>,
+    /// Draws it into the shadow maps of characters.
+    pub shadow: Option<P>,
+    /// Draws its depth before the picture; nothing does where nothing reads that.
+    pub prepass: Option<P>,
+}
+
+impl<P> Pipelines<P> {
+    /// All of them.
+    pub fn iter(&self) -> impl Iterator<Item = &P> {
+        let Self { surface, outline, fluff, glow, through, bangs, shadow, prepass } = self;
+        let others = [outline, fluff, glow, through, bangs, shadow, prepass];
+        std::iter::once(surface).chain(others.into_iter().flatten())
+    }
+
+    /// The same with each made into something else.
+    pub fn map<Q, E>(self, mut make: impl FnMut(P) -> Result<Q, E>) -> Result<Pipelines<Q>, E> {
+        Ok(Pipelines {
+            surface: make(self.surface)?,
+            outline: self.outline.map(&mut make).transpose()?,
+            fluff: self.fluff.map(&mut make).transpose()?,
+            glow: self.glow.map(&mut make).transpose()?,
+            through: self.through.map(&mut make).transpose()?,
+            bangs: self.bangs.map(&mut make).transpose()?,
+            shadow: self.shadow.map(&mut make).transpose()?,
+            prepass: self.prepass.map(&mut make).transpose()?,
+        })
+    }
+}
+
+/// One draw for each opaque material, one for each transparent part, in the order in which they are drawn.
+pub(super) fn draws(scene: &Scene, parts: &[Part], has_stencil: bool) -> Vec<Draw> {
+    let has_marks = scene.eyes_through.is_some() && has_stencil;
+    let has_lids = scene.bangs.is_some() && scene.materials.iter().any(|m| m.bangs_shadow.is_some_and(|b| b.lids));
+    let mut draws: Vec<Draw> = Vec::new();
+    for part in parts {
+        let Some(material) = scene.materials.get(part.material) else { continue };
+        let blend = material.alpha.mode == AlphaMode::Blend;
+        let casts_on_face = scene.bangs.is_some() && !blend && casts_on_face(part.role);
+        let casts_lids = has_lids && matches!(part.role, Role::Face | Role::Lash) && !blend;
+        let mark = if has_marks && !blend {
+            mark(part.role)
+        } else {
+            Mark::None
+        };
+        // Parts are sorted by material, so that those of one material follow each other in the index buffer.
+        if let Some(last) = draws.last_mut()
+            && !blend
+            && last.material == part.material
+            && last.indices.end == part.indices.start
+            && (last.casts_on_face, last.casts_lids, last.mark) == (casts_on_face, casts_lids, mark)
+        {
+            last.indices.end = part.indices.end;
+            continue;
         }
-        // Hair marks what it hides last; cards of a stack follow each other. The sort is stable and leaves blended draws at
-        // the end.
-        let layer = |d: &Draw| scene.materials[d.material].layer.map_or(0, |l| l.index);
-        draws.sort_by_key(|d| (d.blend, has_marks.then_some(d.mark), if d.blend { 0 } else { layer(d) }));
-        draws
+        draws.push(Draw {
+            material: part.material,
+            indices: part.indices.clone(),
+            center: part.center,
+            has_vertex_colors: part.has_vertex_colors,
+            blend,
+            write_depth: material.alpha.write_depth,
+            queue_offset: material.alpha.queue_offset,
+            casts_on_face,
+            casts_lids,
+            mark,
+        });
+    }
+    // Hair marks what it hides last; cards of a stack follow each other. The sort is stable and leaves blended draws at
+    // the end.
+    let layer = |d: &Draw| scene.materials[d.material].layer.map_or(0, |l| l.index);
+    draws.sort_by_key(|d| (d.blend, has_marks.then_some(d.mark), if d.blend { 0 } else { layer(d) }));
+    draws
+}
+
+/// What shows each draw. `compositions` are those of the scene's materials.
+pub(super) fn requests(
+    scene: &Scene,
+    draws: &[Draw],
+    compositions: &[Composition],
+    picture: &Picture<'_>,
+) -> Vec<Pipelines<Request>> {
+    let blooms = scene.post.is_some_and(|p| p.bloom.is_some());
+    let glows = |draw: &Draw| blooms && compositions[draw.material].has("glow");
+    let reads = |what| draws.iter().any(|d| compositions[d.material].needs(what));
+    let has_surfaces = reads("prepass_surfaces");
+    let has_prepass = reads("prepass") || draws.iter().any(glows);
+    let request = |draw: &Draw| {
+        let (of, material) = (&compositions[draw.material], &scene.materials[draw.material]);
+        let colors = draw.has_vertex_colors;
+        let casts = scene.self_shadow.is_some() && !draw.blend && material.cast_shadow.is_some_and(|s| s.casts);
+        Pipelines {
+            outline: outline::request(picture, of, material, colors),
+            glow: glows(draw).then(|| glow::request(of, material, colors)),
+            bangs: (scene.bangs.is_some() && !draw.blend).then(|| bangs_shadow::request(of, colors)),
+            shadow: casts.then(|| shadow::request(of, colors)),
+            prepass: (has_prepass && !draw.blend).then(|| prepass::request(of, material, colors, has_surfaces)),
+            ..surface_requests(draw, of, material, picture)
+        }
+    };
+    draws.iter().map(request).collect()
+}
+
+/// What shows the surface of a draw; in a debug channel there is no more.
+pub(super) fn surface_requests(
+    draw: &Draw,
+    of: &Composition,
+    material: &Material,
+    picture: &Picture<'_>,
+) -> Pipelines<Request> {
+    let colors = draw.has_vertex_colors;
+    Pipelines {
+        surface: if draw.blend {
+            transparent::request(picture, of, material, colors)
+        } else {
+            opaque::request(picture, of, material, colors, draw.mark)
+        },
+        outline: None,
+        fluff: (of.has("fluff") && !draw.blend).then(|| fluff::request(picture, of, colors)),
+        glow: None,
+        through: (draw.mark == Mark::Eyes).then(|| eyes_through::request(picture, of, material, colors)),
+        bangs: None,
+        shadow: None,
+        prepass: None,
     }
 }
 
@@ -134,7 +182,7 @@ fn mark(role: Role) -> Mark {
 
 /// Eyes and brows, the foremost first: characters face +Z.
 pub(super) fn through_order(draws: &[Draw]) -> Vec<usize> {
-    let mut order: Vec<usize> = (0..draws.len()).filter(|i| draws[*i].through.is_some()).collect();
+    let mut order: Vec<usize> = (0..draws.len()).filter(|i| draws[*i].mark == Mark::Eyes).collect();
     order.sort_by(|a, b| draws[*b].center.z.total_cmp(&draws[*a].center.z));
     order
 }
@@ -170,11 +218,28 @@ pub(crate) fn bind_scene(
     pass.set_index_buffer(scene.indices.slice(..), wgpu::IndexFormat::Uint32);
 }
 
-/// Draws `draw` with `pipeline`, once for each instance.
-pub(crate) fn record(pass: &mut wgpu::RenderPass<'_>, scene: &GpuScene, draw: &Draw, pipeline: &wgpu::RenderPipeline) {
-    pass.set_pipeline(pipeline);
-    pass.set_bind_group(2, &scene.material_groups[draw.material], &[]);
-    pass.draw_indexed(draw.indices.clone(), 0, 0..scene.instance_rows.len() as u32);
+/// Draws `draw`, once for each instance.
+pub(crate) fn record(pass: &mut wgpu::RenderPass<'_>, scene: &GpuScene, draw: &Draw, drawn: &Drawn) {
+    record_instances(pass, scene, draw, drawn, 0..scene.instance_rows.len() as u32);
+}
+
+/// [`record`] of some instances.
+pub(crate) fn record_instances(
+    pass: &mut wgpu::RenderPass<'_>,
+    scene: &GpuScene,
+    draw: &Draw,
+    drawn: &Drawn,
+    instances: std::ops::Range<u32>,
+) {
+    bind(pass, scene, drawn);
+    pass.draw_indexed(draw.indices.clone(), 0, instances);
+}
+
+fn bind(pass: &mut wgpu::RenderPass<'_>, scene: &GpuScene, drawn: &Drawn) {
+    pass.set_pipeline(&drawn.pipeline);
+    if let Some(group) = drawn.group {
+        pass.set_bind_group(2, &scene.groups[group].group, &[]);
+    }
 }
 
 /// [`record`] with the stencil's reference for `mark`, which holds the number of the character. A crowd larger than there
@@ -183,11 +248,10 @@ pub(crate) fn record_marked(
     pass: &mut wgpu::RenderPass<'_>,
     scene: &GpuScene,
     draw: &Draw,
-    pipeline: &wgpu::RenderPipeline,
+    drawn: &Drawn,
     mark: Mark,
 ) {
-    pass.set_pipeline(pipeline);
-    pass.set_bind_group(2, &scene.material_groups[draw.material], &[]);
+    bind(pass, scene, drawn);
     let instances = scene.instance_rows.len() as u32;
     let block = if mark.is_numbered() {
         instances.div_ceil(Mark::NUMBERS).max(1)

@@ -6,7 +6,7 @@ use glam::{Mat4, Vec3};
 
 use super::{
     pass::deform::DeformInput,
-    uniforms::{DeformGroup, DeformVertex, MorphEntry, StaticVertex, pack_unit},
+    vertex::{DeformGroup, DeformVertex, MorphEntry, StaticVertex, pack_unit},
 };
 use crate::{
     material::AlphaMode,

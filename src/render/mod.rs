@@ -1,16 +1,23 @@
 //! The renderer: a frame as one list of calls.
 
+mod check_wgsl;
+mod clock;
 pub(crate) mod draw_list;
+mod frame;
 mod geometry;
+pub(crate) mod layout;
+mod made;
+pub(crate) mod material;
 pub(crate) mod pass;
 mod readback;
 pub mod shaders;
 mod targets;
 mod textures;
-#[doc(hidden)]
-pub mod uniforms;
 mod upload;
 mod uv_metric;
+mod variants;
+#[doc(hidden)]
+pub mod vertex;
 mod view;
 
 use std::time::Duration;
@@ -18,30 +25,27 @@ use std::time::Duration;
 pub use upload::{GpuMemory, GpuScene};
 pub use view::{Background, Channel, View};
 
-use crate::{
-    Error, Gpu, Result,
-    color::Srgb,
-    gpu::MAX_TEXTURE_SIDE,
-    scene::{Image, Post},
-};
-use pass::{
-    HDR_FORMAT,
-    bangs_near::BangsNearPass,
-    bangs_shadow::{BangsShadowInputs, BangsShadowPass},
-    bloom::{BloomChain, BloomInputs, BloomPass},
-    deform::{DeformInputs, DeformPass},
-    eyes_through::{EyesThroughInputs, EyesThroughPass},
-    fluff::{FluffInputs, FluffPass},
-    glow::{self, GlowInputs, GlowPass},
-    opaque::{OpaqueInputs, OpaquePass},
-    outline::{OutlineInputs, OutlinePass},
-    post::{PostInputs, PostPass},
-    prepass::{PrepassInputs, PrepassPass},
-    shadow::{ShadowInputs, ShadowPass},
-    transparent::{TransparentInputs, TransparentPass},
-};
+pub(crate) use clock::{Clock, Timed};
+
+use crate::color::Srgb;
+use crate::gpu::MAX_TEXTURE_SIDE;
+use crate::scene::{Image, Post};
+use crate::{Error, Gpu, Result};
+use frame::{frame_numbers, put_view};
+use layout::Filled;
+use pass::bangs_near::BangsNearPass;
+use pass::bangs_shadow::{self, BangsShadowInputs};
+use pass::bloom::{BloomChain, BloomInputs, BloomPass};
+use pass::deform::{DeformInputs, DeformPass};
+use pass::floor::FloorPass;
+use pass::glow::{self, GlowInputs};
+use pass::post::{PostInputs, PostPass};
+use pass::prepass::{self, PrepassInputs};
+use pass::shadow::{self, ShadowInputs};
+use pass::{HDR_FORMAT, Picture, eyes_through, fluff, opaque, outline, transparent};
+use shaders::Shaders;
 use targets::{ColorTargets, PrepassTargets};
-use uniforms::{AffineRows, FrameUniform};
+use variants::Variants;
 
 /// What a [`Renderer`] draws into.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,38 +65,18 @@ impl Default for Output {
     }
 }
 
-/// Bind group layouts, by rate of change.
-#[derive(Debug)]
-pub(crate) struct Layouts {
-    /// Group 0.
-    pub frame: wgpu::BindGroupLayout,
-    /// Group 1.
-    pub character: wgpu::BindGroupLayout,
-    /// Group 2.
-    pub material: wgpu::BindGroupLayout,
-    /// Of every pass that draws surfaces.
-    pub surface: wgpu::PipelineLayout,
-}
-
 /// Draws scenes. One for each device and output format.
 #[derive(Debug)]
 pub struct Renderer {
-    pub(crate) gpu: Gpu,
     output: Output,
-    pub(crate) layouts: Layouts,
+    pub(crate) variants: Variants,
+    layouts: Layouts,
     deform: DeformPass,
-    bangs_near: BangsNearPass,
-    bangs_shadow: BangsShadowPass,
-    prepass: PrepassPass,
-    shadow: ShadowPass,
-    opaque: OpaquePass,
-    outline: OutlinePass,
-    fluff: FluffPass,
-    glow: GlowPass,
-    bloom: BloomPass,
-    post: PostPass,
-    eyes_through: EyesThroughPass,
-    transparent: TransparentPass,
+    // What few pictures need is made when one does.
+    bangs_near: Option<BangsNearPass>,
+    bloom: Option<BloomPass>,
+    post: Option<PostPass>,
+    frame_numbers: Filled,
     frame_uniform: wgpu::Buffer,
     frame_group: wgpu::BindGroup,
     color_targets: Option<ColorTargets>,
@@ -100,6 +84,26 @@ pub struct Renderer {
     /// With the group 0 that reads them.
     prepass_targets: Option<(PrepassTargets, wgpu::BindGroup)>,
     picture_target: Option<wgpu::Texture>,
+}
+
+/// Bind group layouts of what all materials share.
+#[derive(Debug)]
+struct Layouts {
+    /// Group 0.
+    frame: wgpu::BindGroupLayout,
+    /// Group 1.
+    character: wgpu::BindGroupLayout,
+}
+
+/// What a frame shows.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Shown<'a> {
+    /// The finished picture.
+    Picture,
+    /// A debug channel of shading.
+    Channel(&'a str),
+    /// The floor of benches.
+    Floor(&'a FloorPass),
 }
 
 /// Longest wait for a frame before [`Error::Gpu`].
@@ -124,39 +128,49 @@ impl Renderer {
             return Err(Error::Argument { what: "samples".to_owned(), message });
         }
         gpu.scoped(|| {
-            let layouts = Layouts::new(gpu);
+            let frame_numbers = frame_numbers();
+            let layouts = Layouts::new(gpu, frame_numbers.size(), frame::character_numbers().size());
             let frame_uniform = gpu.device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some("frame"),
-                size: size_of::<FrameUniform>() as u64,
+                size: frame_numbers.size(),
                 usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
                 mapped_at_creation: false,
             });
             let frame_group = frame_group(gpu, &layouts, &frame_uniform, &PrepassTargets::new(gpu, [1, 1], false));
-            Self {
-                gpu: gpu.clone(),
+            let variants = Variants::new(gpu, Shaders::new()?, layouts.frame.clone(), layouts.character.clone());
+            Ok(Self {
                 output,
+                deform: DeformPass::new(&variants)?,
+                variants,
                 layouts,
-                deform: DeformPass::new(gpu),
-                bangs_near: BangsNearPass::new(gpu),
-                bangs_shadow: BangsShadowPass::new(gpu),
-                prepass: PrepassPass::new(gpu),
-                shadow: ShadowPass::new(gpu),
-                opaque: OpaquePass::new(gpu, output),
-                outline: OutlinePass::new(gpu, output),
-                fluff: FluffPass::new(gpu, output),
-                glow: GlowPass::new(gpu),
-                bloom: BloomPass::new(gpu),
-                post: PostPass::new(gpu, output),
-                eyes_through: EyesThroughPass::new(gpu, output),
-                transparent: TransparentPass::new(gpu, output),
+                bangs_near: None,
+                bloom: None,
+                post: None,
+                frame_numbers,
                 frame_uniform,
                 frame_group,
                 color_targets: None,
                 post_targets: None,
                 prepass_targets: None,
                 picture_target: None,
-            }
-        })
+            })
+        })?
+    }
+
+    pub(crate) fn gpu(&self) -> &Gpu {
+        &self.variants.gpu
+    }
+
+    fn bangs_near(&mut self) -> Result<&BangsNearPass> {
+        if self.bangs_near.is_none() {
+            self.bangs_near = Some(BangsNearPass::new(&self.variants)?);
+        }
+        self.bangs_near.as_ref().ok_or_else(|| Error::Gpu("the pass of nearest depths is missing".to_owned()))
+    }
+
+    /// What draws the floor of benches.
+    pub(crate) fn floor(&self, scene: &mut GpuScene) -> Result<FloorPass> {
+        FloorPass::new(&self.variants, &Picture::new(self.gpu(), self.output, false, None), scene)
     }
 
     /// Renders a view and reads it back: sRGB, straight alpha.
@@ -165,42 +179,29 @@ impl Renderer {
     /// [`Error::Argument`] for a view out of its domain; [`Error::Gpu`] where the adapter fails or does not answer.
     pub fn render(&mut self, scene: &mut GpuScene, view: &View) -> Result<Image> {
         view.check()?;
-        let gpu = self.gpu.clone();
+        let gpu = self.gpu().clone();
         gpu.scoped(|| {
-            if view.channel.is_geometry() {
-                return self.render_channel(scene, view);
-            }
-            if let Some(code) = view.channel.shader_code() {
-                let shaded = scene.show_channel(self, code);
-                let post = scene.post.take();
-                let view =
-                    View { channel: Channel::Final, background: Background::Color(Srgb([0; 3])), ..view.clone() };
-                let picture = self.render(scene, &view);
-                scene.show_again(shaded);
-                scene.post = post;
-                return picture;
-            }
+            let shown = match view.channel {
+                Channel::Final => Shown::Picture,
+                Channel::Look(channel) => Shown::Channel(channel),
+                _ => return self.render_geometry(scene, view),
+            };
             let texture = match self.picture_target.take() {
                 Some(t) if [t.width(), t.height()] == view.size => t,
-                _ => targets::target(&self.gpu, "picture", view.size, 1, self.output.format, true),
+                _ => targets::target(&gpu, "picture", view.size, 1, self.output.format, true),
             };
-            self.submit_frame(scene, view, &targets::view(&texture))?;
-            let texels = readback::read_texels(&self.gpu, &texture, FRAME_TIMEOUT)?;
+            let mut encoder =
+                gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
+            self.encode(&mut encoder, scene, view, &targets::view(&texture), shown, &Clock::off())?;
+            gpu.queue.submit([encoder.finish()]);
+            let texels = readback::read_texels(&gpu, &texture, FRAME_TIMEOUT)?;
             self.picture_target = Some(texture);
             Ok(readback::picture(view.size, texels))
         })?
     }
 
-    fn submit_frame(&mut self, scene: &mut GpuScene, view: &View, target: &wgpu::TextureView) -> Result<()> {
-        let mut encoder =
-            self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
-        self.encode_frame(&mut encoder, scene, view, target)?;
-        self.gpu.queue.submit([encoder.finish()]);
-        Ok(())
-    }
-
     /// Encodes a view into `target`, which has the format of this renderer's [`Output`], the size of the view, and one
-    /// sample a pixel. The application submits.
+    /// sample a pixel. The application submits. The view's channel does not count.
     ///
     /// # Errors
     /// [`Error::Argument`] for a view out of its domain.
@@ -212,181 +213,170 @@ impl Renderer {
         target: &wgpu::TextureView,
     ) -> Result<()> {
         view.check()?;
-        self.begin_frame(scene, view);
+        self.encode(encoder, scene, view, target, Shown::Picture, &Clock::off())
+    }
+
+    /// The frame. `clock` times its passes.
+    pub(crate) fn encode(
+        &mut self,
+        encoder: &mut wgpu::CommandEncoder,
+        scene: &mut GpuScene,
+        view: &View,
+        target: &wgpu::TextureView,
+        shown: Shown<'_>,
+        clock: &Clock,
+    ) -> Result<()> {
+        let post = scene.post.filter(|_| matches!(shown, Shown::Picture));
+        self.begin_frame(scene, view, post, shown)?;
         // Skinned and morphed vertices; only where the pose has changed.
-        self.encode_deform(encoder, scene, None);
-        // What casts on the face, from the light of that shadow, and each character from the key light; only where the
-        // pose, the light or a place has changed.
-        if std::mem::take(&mut scene.maps_pending) {
-            self.encode_bangs_shadow(encoder, scene, None);
-            self.encode_shadow(encoder, scene, None);
+        self.encode_deform(encoder, scene, clock);
+        if !matches!(shown, Shown::Floor(_)) {
+            // What casts on the face, from the light of that shadow, and each character from the key light; only where the
+            // pose, the light or a place has changed.
+            self.encode_maps(encoder, scene, view, clock);
+            // Depth of all surfaces, and their normals and parts, where a material reads them.
+            self.encode_prepass(encoder, scene, clock);
         }
-        // Depth of all surfaces, and their normals and parts, where a material reads them.
-        self.encode_prepass(encoder, scene, None);
         // Light that blooms, and how far it spreads.
-        self.encode_glow(encoder, scene, None);
+        self.encode_glow(encoder, scene, post, clock);
         // One colour pass: opaque, outlines and transparent share their targets, so samples are resolved once.
-        let mut pass = self.begin_color_pass(encoder, view, target, scene.post.is_some(), None);
+        let mut pass = self.begin_color_pass(encoder, view, target, post, shown, clock);
         draw_list::bind_scene(&mut pass, scene, self.color_frame_group(scene), &scene.character_group);
-        self.record_surfaces(&mut pass, scene, view);
+        self.record_surfaces(&mut pass, scene, view, shown);
         drop(pass);
         // Bloom, tone curve, background, smooth edges.
-        self.encode_post(encoder, scene, view, target, None);
+        self.encode_post(encoder, view, target, post, clock);
         Ok(())
     }
 
     /// Every draw of the colour pass.
-    pub(crate) fn record_surfaces(&self, pass: &mut wgpu::RenderPass<'_>, scene: &GpuScene, view: &View) {
+    fn record_surfaces(&self, pass: &mut wgpu::RenderPass<'_>, scene: &GpuScene, view: &View, shown: Shown<'_>) {
+        let pipelines = match shown {
+            Shown::Picture => &scene.picture,
+            Shown::Channel(channel) => scene.channel(channel),
+            Shown::Floor(floor) => return floor.encode(pass, scene),
+        };
         // Body, face, hair.
-        self.opaque.encode(pass, &OpaqueInputs { scene });
+        opaque::encode(pass, scene, pipelines);
         // Lines around them, hidden where a surface is nearer.
-        self.outline.encode(pass, &OutlineInputs { scene });
+        outline::encode(pass, scene, pipelines);
         // Coats of short hair over both.
-        self.fluff.encode(pass, &FluffInputs { scene, px_per_m: view.px_per_m() });
+        fluff::encode(pass, scene, pipelines, view.px_per_m());
         // Eyes and brows through the bangs.
-        self.eyes_through.encode(pass, &EyesThroughInputs { scene });
+        eyes_through::encode(pass, scene, pipelines);
         // What is seen through, far before near.
-        self.transparent.encode(pass, &TransparentInputs { scene });
+        transparent::encode(pass, scene, pipelines);
     }
 
-    /// Writes what changes with the view: uniforms, instances, order of transparent draws, targets of a new size.
-    pub(crate) fn begin_frame(&mut self, scene: &mut GpuScene, view: &View) {
-        self.gpu.queue.write_buffer(&self.frame_uniform, 0, bytemuck::bytes_of(&FrameUniform::new(view)));
-        let rows = view.instances.iter().map(|m| AffineRows::from(*m));
-        let changed = scene.instance_rows.len() != view.instances.len()
-            || rows.clone().zip(&scene.instance_rows).any(|(a, b)| bytemuck::bytes_of(&a) != bytemuck::bytes_of(b));
-        if changed {
-            scene.maps_pending = true;
-            scene.instance_rows.clear();
-            scene.instance_rows.extend(rows);
-            // A copy for the surfaces, and one for each shell of a coat.
-            let copied = scene.instance_rows.repeat(scene.instance_copies);
-            if copied.len() > scene.instance_capacity {
-                scene.instance_capacity = copied.len().next_power_of_two();
-                scene.instances = upload::instance_buffer(&self.gpu, scene.instance_capacity);
-            }
-            self.gpu.queue.write_buffer(&scene.instances, 0, bytemuck::cast_slice(&copied));
-        }
+    /// Writes what changes with the view: numbers, places, order of transparent draws; makes targets of a new size, and what
+    /// shows a channel.
+    fn begin_frame(&mut self, scene: &mut GpuScene, view: &View, post: Option<Post>, shown: Shown<'_>) -> Result<()> {
+        let gpu = self.gpu().clone();
+        gpu.queue.write_buffer(&self.frame_uniform, 0, self.frame_numbers.fill(|numbers| put_view(numbers, view)));
+        scene.place(&gpu, view);
         scene.fit_shadow(self);
-        scene.light(&self.gpu, view);
+        scene.light(&gpu, view);
         // Draws of a crowd share one order: that of its first character.
         let eye = view.instances.first().map_or(view.camera.eye, |m| m.inverse().transform_point3(view.camera.eye));
         scene.sort_transparent(eye);
-        if self.color_targets.as_ref().is_none_or(|t| t.size != view.size) && view.channel == Channel::Final {
-            self.color_targets = Some(ColorTargets::new(&self.gpu, view.size, self.output));
+        if let Shown::Channel(channel) = shown {
+            scene.show_channel(&self.variants, &Picture::new(&gpu, self.output, false, Some(channel)), channel)?;
         }
-        if let Some(post) = scene.post
-            && view.channel == Channel::Final
-            && self.post_targets.as_ref().is_none_or(|t| t.color.size != view.size || t.post != post)
-        {
-            self.post_targets = Some(PostTargets::new(self, view.size, post));
+        match post {
+            Some(post) => self.fit_post(view.size, post)?,
+            None if self.color_targets.as_ref().is_none_or(|t| t.size != view.size) => {
+                self.color_targets = Some(ColorTargets::new(&gpu, view.size, self.output));
+            }
+            None => {}
         }
-        let fits = |t: &PrepassTargets| t.size == view.size && (t.has_surfaces || !scene.has_inner_lines);
-        if !scene.prepass.is_empty() && !self.prepass_targets.as_ref().is_some_and(|(t, _)| fits(t)) {
-            let targets = PrepassTargets::new(&self.gpu, view.size, scene.has_inner_lines);
-            let group = frame_group(&self.gpu, &self.layouts, &self.frame_uniform, &targets);
+        let has_surfaces = scene.has_inner_lines();
+        let fits = |t: &PrepassTargets| t.size == view.size && (t.has_surfaces || !has_surfaces);
+        if scene.has_prepass() && !self.prepass_targets.as_ref().is_some_and(|(t, _)| fits(t)) {
+            let targets = PrepassTargets::new(&gpu, view.size, has_surfaces);
+            let group = frame_group(&gpu, &self.layouts, &self.frame_uniform, &targets);
             self.prepass_targets = Some((targets, group));
         }
+        Ok(())
     }
 
-    pub(crate) fn encode_deform(
-        &self,
-        encoder: &mut wgpu::CommandEncoder,
-        scene: &mut GpuScene,
-        timestamps: Option<wgpu::ComputePassTimestampWrites<'_>>,
-    ) {
-        if std::mem::take(&mut scene.deform_pending) {
-            self.deform.encode(encoder, &DeformInputs { scene }, timestamps);
+    fn encode_deform(&self, encoder: &mut wgpu::CommandEncoder, scene: &mut GpuScene, clock: &Clock) {
+        if scene.deformed.stale(scene.pose_revision()).is_some() {
+            self.deform.encode(encoder, &DeformInputs { scene }, clock.compute(Timed::Deform));
         }
     }
 
-    pub(crate) fn encode_bangs_shadow(
-        &self,
-        encoder: &mut wgpu::CommandEncoder,
-        scene: &GpuScene,
-        timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
-    ) {
-        if let Some(map) = &scene.bangs {
-            let inputs = BangsShadowInputs { scene, frame: &self.frame_group, reduce: &self.bangs_near, map };
-            self.bangs_shadow.encode(encoder, &inputs, timestamps);
+    fn encode_maps(&self, encoder: &mut wgpu::CommandEncoder, scene: &mut GpuScene, view: &View, clock: &Clock) {
+        let key = scene.maps_key(view);
+        if scene.maps.stale(key).is_none() {
+            return;
         }
-    }
-
-    pub(crate) fn encode_shadow(
-        &self,
-        encoder: &mut wgpu::CommandEncoder,
-        scene: &GpuScene,
-        timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
-    ) {
+        if let (Some(map), Some(reduce)) = (&scene.bangs, &self.bangs_near) {
+            let inputs = BangsShadowInputs { scene, frame: &self.frame_group, reduce, map };
+            bangs_shadow::encode(encoder, &inputs, clock.render(Timed::BangsShadow));
+        }
         if let Some(map) = &scene.shadow {
-            self.shadow.encode(encoder, &ShadowInputs { scene, frame: &self.frame_group, map }, timestamps);
+            let inputs = ShadowInputs { scene, frame: &self.frame_group, map };
+            shadow::encode(encoder, &inputs, clock.render(Timed::Shadow));
         }
     }
 
-    pub(crate) fn encode_prepass(
-        &self,
-        encoder: &mut wgpu::CommandEncoder,
-        scene: &GpuScene,
-        timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
-    ) {
-        if let (false, Some((targets, _))) = (scene.prepass.is_empty(), &self.prepass_targets) {
-            let inputs = PrepassInputs {
-                scene,
-                frame: &self.frame_group,
-                targets,
-                surfaces: scene.has_inner_lines,
-                pipelines: &scene.prepass,
-            };
-            self.prepass.encode(encoder, &inputs, timestamps);
+    fn encode_prepass(&self, encoder: &mut wgpu::CommandEncoder, scene: &GpuScene, clock: &Clock) {
+        if let (true, Some((targets, _))) = (scene.has_prepass(), &self.prepass_targets) {
+            let surfaces = scene.has_inner_lines();
+            let drawn = &mut scene.picture.iter().map(|p| p.prepass.as_ref());
+            let inputs = PrepassInputs { scene, frame: &self.frame_group, targets, surfaces, drawn };
+            prepass::encode(encoder, inputs, clock.render(Timed::Prepass));
         }
     }
 
-    pub(crate) fn encode_glow(
+    fn encode_glow(
         &self,
         encoder: &mut wgpu::CommandEncoder,
         scene: &GpuScene,
-        timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
+        post: Option<Post>,
+        clock: &Clock,
     ) {
-        let targets = self.post_targets.as_ref().filter(|_| scene.post.is_some());
-        if let Some(PostTargets { light: Some((light, chain)), .. }) = targets {
+        let targets = self.post_targets.as_ref().filter(|_| post.is_some());
+        if let (Some(PostTargets { light: Some((light, chain)), .. }), Some(bloom)) = (targets, &self.bloom) {
             let inputs = GlowInputs { scene, frame: self.color_frame_group(scene), light };
-            self.glow.encode(encoder, &inputs, timestamps);
-            self.bloom.encode(encoder, &BloomInputs { chain });
+            glow::encode(encoder, &inputs, clock.render(Timed::Glow));
+            bloom.encode(encoder, &BloomInputs { chain });
         }
     }
 
-    pub(crate) fn encode_post(
-        &self,
+    fn encode_post(
+        &mut self,
         encoder: &mut wgpu::CommandEncoder,
-        scene: &GpuScene,
         view: &View,
         target: &wgpu::TextureView,
-        timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
+        post: Option<Post>,
+        clock: &Clock,
     ) {
-        if let (Some(post), Some(targets)) = (scene.post, &self.post_targets) {
-            let PostTargets { group, pipeline, .. } = targets;
-            let inputs = PostInputs { post, background: view.background, group, pipeline, target };
-            self.post.encode(&self.gpu, encoder, &inputs, timestamps);
+        let Self { variants, post: pass, post_targets, .. } = self;
+        if let (Some(post), Some(targets), Some(pass)) = (post, post_targets, pass) {
+            let inputs = PostInputs { post, background: view.background, group: &targets.group, target };
+            pass.encode(&variants.gpu, encoder, &inputs, clock.render(Timed::Post));
         }
     }
 
-    /// `posts`: it is finished by [`Renderer::encode_post`].
-    pub(crate) fn begin_color_pass<'a>(
+    /// `post`: it is finished by [`Renderer::encode_post`].
+    fn begin_color_pass<'a>(
         &self,
         encoder: &'a mut wgpu::CommandEncoder,
         view: &View,
         target: &wgpu::TextureView,
-        posts: bool,
-        timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
+        post: Option<Post>,
+        shown: Shown<'_>,
+        clock: &Clock,
     ) -> wgpu::RenderPass<'a> {
-        let post = self.post_targets.as_ref().filter(|_| posts);
+        let post = self.post_targets.as_ref().filter(|_| post.is_some());
         let targets = post.map_or(self.color_targets.as_ref(), |p| Some(&p.color));
         let target = post.map_or(target, |p| &p.picture);
-        let clear = if post.is_some() {
+        let clear = match shown {
             // The background comes last.
-            wgpu::Color::TRANSPARENT
-        } else {
-            view.background.clear_color(self.output)
+            _ if post.is_some() => wgpu::Color::TRANSPARENT,
+            Shown::Channel(_) => Background::Color(Srgb([0; 3])).clear_color(self.output),
+            _ => view.background.clear_color(self.output),
         };
         let multisampled = targets.and_then(|t| t.multisampled.as_ref());
         // Samples that are resolved need not be kept.
@@ -406,80 +396,85 @@ impl Renderer {
             depth_stencil_attachment: targets.map(|t| wgpu::RenderPassDepthStencilAttachment {
                 view: &t.depth,
                 depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Discard }),
-                stencil_ops: pass::color_depth_format(&self.gpu)
+                stencil_ops: pass::color_depth_format(self.gpu())
                     .has_stencil_aspect()
                     .then_some(wgpu::Operations { load: wgpu::LoadOp::Clear(0), store: wgpu::StoreOp::Discard }),
             }),
-            timestamp_writes: timestamps,
+            timestamp_writes: clock.render(Timed::Color),
             ..Default::default()
         })
     }
 
     /// Group 0 of the colour pass: with what the prepass drew where a material reads it.
-    pub(crate) fn color_frame_group(&self, scene: &GpuScene) -> &wgpu::BindGroup {
-        let drawn = self.prepass_targets.as_ref().filter(|_| !scene.prepass.is_empty());
+    fn color_frame_group(&self, scene: &GpuScene) -> &wgpu::BindGroup {
+        let drawn = self.prepass_targets.as_ref().filter(|_| scene.has_prepass());
         drawn.map_or(&self.frame_group, |(_, group)| group)
     }
 
-    /// Renders one of the prepass's channels as a picture.
-    fn render_channel(&mut self, scene: &mut GpuScene, view: &View) -> Result<Image> {
-        self.begin_frame(scene, view);
-        let targets = PrepassTargets::new(&self.gpu, view.size, true);
-        let mut encoder =
-            self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("channel") });
-        self.encode_deform(&mut encoder, scene, None);
-        // Made here and not at upload: few scenes are ever looked at in these channels.
-        let Self { gpu, layouts, prepass, frame_group, .. } = self;
-        let pipelines: Vec<_> = scene
-            .draws
-            .iter()
-            .map(|d| Some(prepass.pipeline(gpu, layouts, d.flags, scene.material(d), false)))
-            .collect();
-        // Depth, normal and part id.
-        let inputs =
-            PrepassInputs { scene, frame: frame_group, targets: &targets, surfaces: true, pipelines: &pipelines };
-        prepass.encode(&mut encoder, &inputs, None);
-        self.gpu.queue.submit([encoder.finish()]);
-        let texture = match view.channel {
-            Channel::Depth => &targets.depth,
-            _ => &targets.surfaces,
-        };
-        let texels = readback::read_texels(&self.gpu, texture, FRAME_TIMEOUT)?;
-        Ok(view.channel.picture(view, texels))
-    }
-}
-
-/// What a frame that is finished by [`PostPass`] is drawn into.
-#[derive(Debug)]
-struct PostTargets {
-    post: Post,
-    color: ColorTargets,
-    picture: wgpu::TextureView,
-    light: Option<(wgpu::TextureView, BloomChain)>,
-    group: wgpu::BindGroup,
-    pipeline: wgpu::RenderPipeline,
-}
-
-impl PostTargets {
-    fn new(renderer: &mut Renderer, size: [u32; 2], post: Post) -> Self {
-        let Renderer { gpu, output, bloom, post: pass, .. } = renderer;
-        let picture = targets::sampled(gpu, "picture", size, HDR_FORMAT);
-        let light = post.bloom.map(|settings| {
-            let glow = glow::target(gpu, size);
-            let chain = bloom.chain(gpu, &glow, size[1], settings);
+    /// Makes what a picture that is finished by [`PostPass`] is drawn into, where there is none of this size and kind.
+    fn fit_post(&mut self, size: [u32; 2], post: Post) -> Result<()> {
+        let gpu = self.gpu().clone();
+        if self.post.is_none() {
+            self.post = Some(PostPass::new(&self.variants, self.output)?);
+        }
+        if post.bloom.is_some() && self.bloom.is_none() {
+            self.bloom = Some(BloomPass::new(&self.variants)?);
+        }
+        let Self { variants, output, bloom, post: Some(pass), post_targets, .. } = self else { return Ok(()) };
+        pass.fit(variants, post)?;
+        let levels = post.bloom.map(|b| b.levels(size[1]));
+        if post_targets.as_ref().is_some_and(|t| t.color.size == size && t.levels == levels) {
+            return Ok(());
+        }
+        let picture = targets::sampled(&gpu, "picture", size, HDR_FORMAT);
+        let light = levels.zip(bloom.as_ref()).map(|(levels, bloom)| {
+            let glow = glow::target(&gpu, size);
+            let chain = bloom.chain(&gpu, &glow, levels);
             (glow, chain)
         });
         // Without bloom its strength is 0, and any picture will do.
         let spread = light.as_ref().map_or(&picture, |(glow, _)| glow);
-        Self {
-            post,
-            color: ColorTargets::new(gpu, size, Output { format: HDR_FORMAT, ..*output }),
-            group: pass.group(gpu, &picture, spread),
-            pipeline: pass.pipeline(gpu, post),
+        *post_targets = Some(PostTargets {
+            color: ColorTargets::new(&gpu, size, Output { format: HDR_FORMAT, ..*output }),
+            group: pass.group(&gpu, &picture, spread),
+            levels,
             picture,
             light,
-        }
+        });
+        Ok(())
     }
+
+    /// Renders one of the prepass's channels as a picture.
+    fn render_geometry(&mut self, scene: &mut GpuScene, view: &View) -> Result<Image> {
+        self.begin_frame(scene, view, None, Shown::Picture)?;
+        let gpu = self.gpu().clone();
+        let targets = PrepassTargets::new(&gpu, view.size, true);
+        let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("channel") });
+        self.encode_deform(&mut encoder, scene, &Clock::off());
+        // Depth, normal and part id.
+        scene.make_geometry(&self.variants)?;
+        let drawn = &mut scene.geometry.iter().map(Some);
+        let inputs = PrepassInputs { scene, frame: &self.frame_group, targets: &targets, surfaces: true, drawn };
+        prepass::encode(&mut encoder, inputs, None);
+        gpu.queue.submit([encoder.finish()]);
+        let texture = match view.channel {
+            Channel::Depth => &targets.depth,
+            _ => &targets.surfaces,
+        };
+        let texels = readback::read_texels(&gpu, texture, FRAME_TIMEOUT)?;
+        Ok(view.channel.picture(view, texels))
+    }
+}
+
+/// What a frame that is finished by [`PostPass`] is drawn into; settings that are numbers do not count.
+#[derive(Debug)]
+struct PostTargets {
+    color: ColorTargets,
+    picture: wgpu::TextureView,
+    /// Length of the chain below the light that blooms.
+    levels: Option<usize>,
+    light: Option<(wgpu::TextureView, BloomChain)>,
+    group: wgpu::BindGroup,
 }
 
 fn frame_group(gpu: &Gpu, layouts: &Layouts, uniform: &wgpu::Buffer, read: &PrepassTargets) -> wgpu::BindGroup {
@@ -495,7 +490,7 @@ fn frame_group(gpu: &Gpu, layouts: &Layouts, uniform: &wgpu::Buffer, read: &Prep
 }
 
 impl Layouts {
-    fn new(gpu: &Gpu) -> Self {
+    fn new(gpu: &Gpu, frame_bytes: u64, character_bytes: u64) -> Self {
         let uniform = |size| wgpu::BindingType::Buffer {
             ty: wgpu::BufferBindingType::Uniform,
             has_dynamic_offset: false,
@@ -506,7 +501,7 @@ impl Layouts {
         let frame = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("frame"),
             entries: &[
-                entry(0, both, uniform(size_of::<FrameUniform>() as u64)),
+                entry(0, both, uniform(frame_bytes)),
                 entry(
                     1,
                     wgpu::ShaderStages::FRAGMENT,
@@ -527,35 +522,6 @@ impl Layouts {
                 ),
             ],
         });
-        let mut entries = vec![entry(0, both, uniform(size_of::<uniforms::MaterialUniform>() as u64))];
-        for slot in 0..upload::TEXTURE_SLOTS as u32 {
-            // The width mask of the outline and the mask of the UV animation that moves it are read by vertices.
-            let stages = if matches!(slot, 7 | 8) {
-                both
-            } else {
-                wgpu::ShaderStages::FRAGMENT
-            };
-            entries.push(entry(
-                1 + 2 * slot,
-                stages,
-                wgpu::BindingType::Texture {
-                    sample_type: wgpu::TextureSampleType::Float { filterable: true },
-                    view_dimension: if slot == upload::FACE_SLOT as u32 {
-                        wgpu::TextureViewDimension::D2Array
-                    } else {
-                        wgpu::TextureViewDimension::D2
-                    },
-                    multisampled: false,
-                },
-            ));
-            if slot < upload::SAMPLER_SLOTS as u32 {
-                let ty = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering);
-                entries.push(entry(2 + 2 * slot, stages, ty));
-            }
-        }
-        let material = gpu
-            .device
-            .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("material"), entries: &entries });
         let numbers = wgpu::BindingType::Texture {
             sample_type: wgpu::TextureSampleType::Float { filterable: false },
             view_dimension: wgpu::TextureViewDimension::D2Array,
@@ -564,7 +530,7 @@ impl Layouts {
         let character = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("character"),
             entries: &[
-                entry(0, both, uniform(size_of::<uniforms::CharacterUniform>() as u64)),
+                entry(0, both, uniform(character_bytes)),
                 entry(1, wgpu::ShaderStages::FRAGMENT, numbers),
                 entry(2, wgpu::ShaderStages::FRAGMENT, numbers),
                 entry(
@@ -588,12 +554,7 @@ impl Layouts {
                 ),
             ],
         });
-        let surface = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some("surface"),
-            bind_group_layouts: &[Some(&frame), Some(&character), Some(&material)],
-            immediate_size: 0,
-        });
-        Self { frame, character, material, surface }
+        Self { frame, character }
     }
 }
 

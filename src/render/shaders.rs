@@ -1,146 +1,463 @@
-//! The only place that knows how WGSL is linked and validated: the texts made by `build.rs`, and the check of a user's.
+//! The only place that knows how WGSL is linked: what a material needs and nothing else, from the files of `wgsl/` and one
+//! generated module, `package::material`, that calls each section's functions by name at fixed stages.
 
-use serde::Serialize;
+use std::borrow::Cow;
+use std::collections::{BTreeMap, HashMap};
+use std::fmt::Write;
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
+use wesl::{CompileOptions, ModulePath, NoMangler, ResolveError, Resolver};
+
+pub use super::check_wgsl::{MAX_WGSL_BYTES, ShaderSummary, check};
+use super::layout::{Layout, struct_texts};
+use crate::material::{About, Declared, LISTED, Options, Section, registered};
 use crate::{Error, Result};
 
-macro_rules! entries {
-    ($($name:ident),+ $(,)?) => {
-        /// Linked texts of all entry files by stem.
-        pub const ENTRIES: &[(&str, &str)] =
-            &[$((stringify!($name), include_str!(concat!(env!("OUT_DIR"), "/", stringify!($name), ".wgsl")))),+];
-    };
-}
+/// The files of `wgsl/` by module: `lib/color`.
+const EMBEDDED: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/tree.rs"));
 
-entries!(
-    bangs_near, bangs_shadow, bloom, deform, eyes_through, floor, fluff, glow, opaque, outline, post, prepass, shadow,
-    transparent,
-);
+/// Names a folder whose files take the place of the embedded ones: shaders can be written without building anew.
+pub const FOLDER_VARIABLE: &str = "HIKAGE_WGSL";
 
-/// Shader module of an entry file.
-pub(crate) fn module(device: &wgpu::Device, name: &str) -> wgpu::ShaderModule {
-    let source = ENTRIES.iter().find(|(stem, _)| *stem == name).map_or("", |(_, text)| text);
-    device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label: Some(name),
-        source: wgpu::ShaderSource::Wgsl(source.into()),
+/// The files of `wgsl/` by module: `lib/color`; those of the folder in `HIKAGE_WGSL`, read once, where it is set.
+pub fn tree() -> &'static [(&'static str, &'static str)] {
+    static TREE: OnceLock<Vec<(&'static str, &'static str)>> = OnceLock::new();
+    TREE.get_or_init(|| {
+        let folder = std::env::var_os(FOLDER_VARIABLE).map(PathBuf::from);
+        let of_folder = |module: &str| {
+            let text = std::fs::read_to_string(folder.as_ref()?.join(module).with_extension("wgsl")).ok()?;
+            Some(&*text.leak())
+        };
+        EMBEDDED.iter().map(|(module, text)| (*module, of_folder(module).unwrap_or(text))).collect()
     })
 }
 
-/// Longest WGSL text that [`check`] takes, bytes.
-pub const MAX_WGSL_BYTES: usize = 128 * 1024;
-
-// The front end recurses once an operator: 128 KiB of text cannot use this up.
-const CHECK_STACK_BYTES: usize = 512 * 1024 * 1024;
-
-/// What a valid WGSL text holds.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
-pub struct ShaderSummary {
-    /// Entry points, as `stage name`.
-    pub entry_points: Vec<String>,
-    /// Bindings, as `group:binding name`.
-    pub bindings: Vec<String>,
+/// The text of a file of `wgsl/`.
+pub(crate) fn file(module: &str) -> &'static str {
+    tree().iter().find(|(name, _)| *name == module).map_or("", |(_, text)| text)
 }
 
-/// Parses and validates a user's WGSL.
-///
-/// # Errors
-/// [`Error::Input`] or [`Error::Limit`] that name the file, the line and the fault.
-pub fn check(file: &str, bytes: &[u8]) -> Result<ShaderSummary> {
-    if bytes.len() > MAX_WGSL_BYTES {
-        return Err(Error::Limit {
-            path: file.to_owned(),
-            pointer: "file".to_owned(),
-            found: bytes.len() as u64,
-            limit: MAX_WGSL_BYTES as u64,
-            unit: "bytes",
-        });
-    }
-    let fault = |pointer: String, message: String| Error::Input { path: file.to_owned(), pointer, message };
-    let text = std::str::from_utf8(bytes)
-        .map_err(|e| fault(format!("byte {}", e.valid_up_to()), "is not UTF-8; WGSL is UTF-8 text".to_owned()))?;
-    if let Some(depth_fault) = too_deep(text) {
-        return Err(fault(depth_fault.0, depth_fault.1));
-    }
-    let checked = std::thread::scope(|scope| {
-        std::thread::Builder::new()
-            .name("wgsl-check".to_owned())
-            .stack_size(CHECK_STACK_BYTES)
-            .spawn_scoped(scope, || parse_and_validate(text))
-            .map_err(|e| Error::Io { path: file.to_owned(), reason: format!("starting a thread to parse it: {e}") })?
-            .join()
-            .map_err(|_| fault("file".to_owned(), "the WGSL front end failed on it; please simplify it".to_owned()))
-    })?;
-    checked.map_err(|(pointer, message)| fault(pointer, message))
+/// How the results of several sections become one.
+enum Fold {
+    /// Each is called.
+    Each,
+    /// The last argument goes through all of them.
+    Chain,
+    /// One operator between all of them, over this value where there is none.
+    Of(&'static str, &'static str),
+    /// The last one counts; this value where there is none.
+    Last(&'static str),
 }
 
-/// Most operators in one statement and brackets around one place.
-const MAX_DEPTH: usize = 1000;
+/// A stage of shading: what a function `SECTION_STAGE` takes and gives.
+struct Stage {
+    name: &'static str,
+    takes: &'static str,
+    gives: &'static str,
+    fold: Fold,
+}
 
-/// Refuses texts whose nesting would exhaust the front end or a driver behind it.
-fn too_deep(text: &str) -> Option<(String, String)> {
-    let (mut depth, mut operators, mut line) = (0usize, 0usize, 1usize);
-    for c in text.chars() {
-        match c {
-            '\n' => line += 1,
-            '(' | '[' | '{' => depth += 1,
-            ')' | ']' => depth = depth.saturating_sub(1),
-            '}' => {
-                depth = depth.saturating_sub(1);
-                operators = 0;
+const fn stage(name: &'static str, takes: &'static str, gives: &'static str, fold: Fold) -> Stage {
+    Stage { name, takes, gives, fold }
+}
+
+/// All stages; the first ones are of vertices.
+const STAGES: &[Stage] = &[
+    stage("place", "clip: vec4f", "vec4f", Fold::Chain),
+    stage("vary", "v: VertexInput, given: Varying", "Varying", Fold::Chain),
+    stage("vertex_uv", "uv: vec4f", "vec4f", Fold::Chain),
+    stage("line", "width: f32", "f32", Fold::Chain),
+    stage("uv", "uv: vec4f", "vec4f", Fold::Chain),
+    // Whether and how much of a surface is there: as pixels, as depth, as alpha, as samples.
+    stage("vanish", "at: Varying", "", Fold::Each),
+    stage("gone", "at: Varying", "bool", Fold::Of("||", "false")),
+    stage("left", "at: Varying", "f32", Fold::Of("*", "1.0")),
+    stage("samples", "at: Varying", "u32", Fold::Of("&", "15u")),
+    stage("surface", "s: Surface", "Surface", Fold::Chain),
+    stage("bend", "s: Surface", "Surface", Fold::Chain),
+    stage("lamps", "s: Surface", "Surface", Fold::Chain),
+    stage("paint", "s: Surface", "Surface", Fold::Chain),
+    stage("shade", "s: Surface, b: Border", "Border", Fold::Chain),
+    stage("model", "s: Surface", "Shaded", Fold::Last("unlit_model(s)")),
+    stage("shine", "s: Surface, l: Shaded", "Shaded", Fold::Chain),
+    stage("contour", "s: Surface, l: Shaded, color: vec3f", "vec3f", Fold::Chain),
+    // Light of its own that blooms, and that of highlights.
+    stage("emitted", "s: Surface", "vec3f", Fold::Last("s.emission")),
+    stage("glow", "s: Surface, b: Border", "vec3f", Fold::Of("+", "vec3f(0.0)")),
+];
+
+/// A texture that a section binds.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(crate) struct Bound {
+    /// Section and field: `gem_inclusions`.
+    pub name: String,
+    /// Whether it has layers.
+    pub is_array: bool,
+}
+
+/// What a shader is linked from.
+#[derive(Clone, Debug)]
+pub(crate) struct Recipe {
+    /// Stem of the entry file in `wgsl/pass`.
+    pub pass: &'static str,
+    /// Sections, in the order of the list.
+    pub sections: Vec<&'static About>,
+    /// What `@if` asks for.
+    pub options: Options,
+    /// Textures of the sections.
+    pub textures: Vec<Bound>,
+}
+
+impl Recipe {
+    /// Of a pass that draws no material.
+    pub fn plain(pass: &'static str) -> Self {
+        Self { pass, sections: Vec::new(), options: Options::default(), textures: Vec::new() }
+    }
+
+    /// The same with an option on where `is_on`.
+    pub fn with(mut self, option: &str, is_on: bool) -> Self {
+        self.options.set(option, is_on);
+        self
+    }
+
+    fn key(&self) -> String {
+        let mut key = self.pass.to_owned();
+        let sections = self.sections.iter().map(|a| a.key);
+        for word in sections.chain(["with"]).chain(self.options.iter()).chain(self.textures.iter().map(|t| &*t.name)) {
+            key.push(' ');
+            key.push_str(word);
+        }
+        key
+    }
+}
+
+/// A text that is ready for the device.
+#[derive(Debug)]
+pub(crate) struct Linked {
+    pub text: String,
+    pub has_fragment: bool,
+    /// What it binds of its material.
+    pub bindings: Vec<Binding>,
+}
+
+/// A binding of group 2.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(crate) struct Binding {
+    pub index: u32,
+    /// `material`, a texture, or a texture with `_sampler` behind.
+    pub name: String,
+    pub kind: BindingKind,
+}
+
+/// What a [`Binding`] holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(crate) enum BindingKind {
+    Numbers,
+    Texture,
+    TextureArray,
+    Sampler,
+}
+
+/// Where the numbers of every section stand in a material's bytes: the same in all shaders.
+#[derive(Debug)]
+pub(crate) struct Places {
+    sections: BTreeMap<&'static str, (usize, Layout)>,
+    /// Bytes of all of them.
+    pub size: usize,
+}
+
+impl Places {
+    fn new(sections: &[&'static About]) -> Result<Self> {
+        let mut text: String = struct_texts(file("bind/uv")).collect();
+        for about in sections {
+            text.extend(struct_texts(look_text(about)));
+        }
+        let mut structs = Layout::of_structs(&text).map_err(|e| fault_in(sections, &text, &e))?;
+        let mut places = Self { sections: BTreeMap::new(), size: 0 };
+        for about in sections {
+            if let Some(layout) = structs.remove(about.name) {
+                let size = layout.size.next_multiple_of(16);
+                places.sections.insert(about.key, (places.size, layout));
+                places.size += size;
             }
-            ';' => operators = 0,
-            '+' | '-' | '*' | '/' | '%' | '&' | '|' | '^' | '!' | '~' | '<' | '>' => operators += 1,
-            _ => {}
         }
-        if depth > MAX_DEPTH || operators > 8 * MAX_DEPTH {
-            return Some((
-                format!("line {line}"),
-                format!(
-                    "an expression is nested too deep: more than {MAX_DEPTH} brackets or {} operators; the limit \
-                     keeps the compiler's recursion bounded",
-                    8 * MAX_DEPTH
-                ),
-            ));
-        }
+        Ok(places)
     }
-    None
+
+    /// Offset and layout of a section that has numbers.
+    pub fn of(&self, key: &str) -> Option<(usize, &Layout)> {
+        self.sections.get(key).map(|(offset, layout)| (*offset, layout))
+    }
 }
 
-fn parse_and_validate(text: &str) -> Result<ShaderSummary, (String, String)> {
-    let one_line = |s: String| s.split_whitespace().collect::<Vec<_>>().join(" ");
-    let place = |location: Option<naga::SourceLocation>| {
-        location.map_or_else(|| "file".to_owned(), |l| format!("line {}:{}", l.line_number, l.line_position))
-    };
-    let module = naga::front::wgsl::parse_str(text).map_err(|e| {
-        // Some labels have no place of their own.
-        let at = e.labels().find(|(span, _)| span.is_defined()).map(|(span, _)| span.location(text));
-        (place(at), one_line(e.emit_to_string(text)))
-    })?;
-    let mut validator =
-        naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::all());
-    validator.validate(&module).map_err(|e| (place(e.location(text)), one_line(e.emit_to_string(text))))?;
-    if module.entry_points.is_empty() {
-        return Err((
-            "file".to_owned(),
-            "the WGSL text has no entry point; expected at least one @vertex, @fragment or @compute function"
-                .to_owned(),
-        ));
+/// Links shaders and keeps what it has linked.
+#[derive(Debug)]
+pub(crate) struct Shaders {
+    pub places: Arc<Places>,
+    hooks: HashMap<&'static str, Vec<&'static str>>,
+    own: Vec<&'static About>,
+    texts: Mutex<HashMap<String, Arc<Linked>>>,
+}
+
+impl Shaders {
+    /// Of all sections that are known by now.
+    pub fn new() -> Result<Self> {
+        Self::with(registered().into_iter().map(|r| r.about).collect())
     }
-    let mut seen = std::collections::BTreeSet::new();
-    for entry in &module.entry_points {
-        if !seen.insert(&entry.name) {
-            return Err(("file".to_owned(), format!("redefinition of the entry point {}", entry.name)));
+
+    fn with(own: Vec<&'static About>) -> Result<Self> {
+        let sections: Vec<&'static About> = LISTED.iter().copied().chain(own.iter().copied()).collect();
+        let hooks = sections.iter().map(|about| (about.key, hooks_of(about))).collect();
+        Ok(Self { places: Arc::new(Places::new(&sections)?), hooks, own, texts: Mutex::default() })
+    }
+
+    /// Stages in which a section takes part.
+    pub fn hooks(&self, about: &About) -> &[&'static str] {
+        self.hooks.get(about.key).map_or(&[], Vec::as_slice)
+    }
+
+    /// The linked text of a recipe, made once.
+    ///
+    /// # Errors
+    /// [`Error::Input`] with file and line for a fault in the WGSL of a section.
+    pub fn linked(&self, recipe: &Recipe) -> Result<Arc<Linked>> {
+        let key = recipe.key();
+        if let Some(found) = self.texts.lock().unwrap_or_else(PoisonError::into_inner).get(&key) {
+            return Ok(Arc::clone(found));
         }
+        let linked = Arc::new(self.link(recipe)?);
+        self.texts.lock().unwrap_or_else(PoisonError::into_inner).insert(key, Arc::clone(&linked));
+        Ok(linked)
     }
-    Ok(ShaderSummary {
-        entry_points: module.entry_points.iter().map(|e| format!("{:?} {}", e.stage, e.name).to_lowercase()).collect(),
-        bindings: module
-            .global_variables
-            .iter()
-            .filter_map(|(_, v)| {
-                let b = v.binding.as_ref()?;
-                Some(format!("{}:{} {}", b.group, b.binding, v.name.as_deref().unwrap_or("_")))
-            })
-            .collect(),
+
+    fn link(&self, recipe: &Recipe) -> Result<Linked> {
+        let tree = Tree { page: self.page(recipe), own: &self.own };
+        let mut options = CompileOptions { validate: false, ..CompileOptions::default() };
+        let on = recipe.options.iter().map(str::to_owned).chain(recipe.sections.iter().map(|a| a.key.to_owned()));
+        options.features.flags = on.map(|name| (name, true.into())).collect();
+        let root = module_path(&["pass", recipe.pass]);
+        let text = wesl::compile(&root, &tree, &NoMangler, &options).map_err(linking)?.to_string();
+        let module =
+            naga::front::wgsl::parse_str(&text).map_err(|e| fault_in(&recipe.sections, &text, &e))?;
+        Ok(Linked {
+            has_fragment: module.entry_points.iter().any(|e| e.stage == naga::ShaderStage::Fragment),
+            bindings: bindings(&module),
+            text,
+        })
+    }
+
+    /// The module `package::material` of a recipe.
+    pub fn page(&self, recipe: &Recipe) -> String {
+        let mut page = String::new();
+        let names: Vec<&str> = recipe.sections.iter().map(|a| a.key).collect();
+        // Writing to a string cannot fail.
+        let _ = writeln!(page, "// Made for {}.", names.join(", "));
+        page.push_str(
+            "import package::bind::surface::{Border, Shaded, Surface};\nimport package::bind::varying::Varying;\n\
+             import package::bind::vertex::VertexInput;\nimport package::model::unlit::unlit_model;\n",
+        );
+        for about in &recipe.sections {
+            let key = about.key;
+            for stage in self.hooks(about) {
+                let folder = if *stage == "model" || !has_function(look_text(about), key, stage) { "model" } else { "look" };
+                let _ = writeln!(page, "import package::{folder}::{key}::{key}_{stage};");
+            }
+            if self.places.of(key).is_some() {
+                let _ = writeln!(page, "import package::look::{key}::{};", about.name);
+            }
+        }
+        self.numbers(recipe, &mut page);
+        let mut index = 1;
+        for Bound { name, is_array } in &recipe.textures {
+            let ty = if *is_array { "texture_2d_array<f32>" } else { "texture_2d<f32>" };
+            let _ = writeln!(page, "@group(2) @binding({index}) var {name}: {ty};");
+            let _ = writeln!(page, "@group(2) @binding({}) var {name}_sampler: sampler;", index + 1);
+            index += 2;
+        }
+        for stage in STAGES {
+            let calls: Vec<&str> =
+                recipe.sections.iter().filter(|a| self.hooks(a).contains(&stage.name)).map(|a| a.key).collect();
+            stage.write(&calls, &mut page);
+        }
+        page
+    }
+
+    /// The struct of all numbers, with those of the sections that are on at their places.
+    fn numbers(&self, recipe: &Recipe, page: &mut String) {
+        let placed: Vec<(&About, usize)> =
+            recipe.sections.iter().filter_map(|a| Some((*a, self.places.of(a.key)?.0))).collect();
+        let Some((_, first)) = placed.first() else { return };
+        page.push_str("struct Material {\n");
+        if *first > 0 {
+            let _ = writeln!(page, "    @align(16) @size({first}) before: vec4f,");
+        }
+        for (i, (about, offset)) in placed.iter().enumerate() {
+            let size = placed.get(i + 1).map_or(String::new(), |(_, next)| format!("@size({}) ", next - offset));
+            let _ = writeln!(page, "    @align(16) {size}{}: {},", about.key, about.name);
+        }
+        page.push_str("}\n@group(2) @binding(0) var<uniform> material: Material;\n");
+    }
+}
+
+/// The error of the linker, with file and line.
+fn linking(error: wesl::Error) -> Error {
+    let wesl::Diagnostic { mut error, detail } = wesl::Diagnostic::from(error);
+    while let wesl::Error::Error(inner) = *error {
+        error = inner.error;
+    }
+    let module = detail.module_path.map_or_else(|| "wgsl".to_owned(), |m| format!("{}.wgsl", m.components.join("/")));
+    let line = detail.source.zip(detail.span).map(|(text, span)| text[..span.start].matches('\n').count() + 1);
+    Error::Input {
+        // A section of an application stands where its author put it.
+        path: module.trim_start_matches("look/").to_owned(),
+        pointer: line.map_or_else(|| "file".to_owned(), |line| format!("line {line}")),
+        message: error.to_string(),
+    }
+}
+
+impl Stage {
+    /// Its function, which calls those of the sections.
+    fn write(&self, sections: &[&str], page: &mut String) {
+        let Self { name, takes, gives, fold } = self;
+        let passed: Vec<&str> = takes.split(", ").filter_map(|t| t.split(':').next()).collect();
+        let last = passed.last().copied().unwrap_or_default();
+        let call = |section: &str, last: &str| {
+            let before = passed[..passed.len() - 1].iter().map(|p| format!("{p}, ")).collect::<String>();
+            format!("{section}_{name}({before}{last})")
+        };
+        let arrow = if gives.is_empty() { String::new() } else { format!(" -> {gives}") };
+        let mut body = String::new();
+        match fold {
+            Fold::Each => sections.iter().for_each(|s| body.push_str(&format!("    {};\n", call(s, last)))),
+            Fold::Chain => {
+                body.push_str(&format!("    var value = {last};\n"));
+                sections.iter().for_each(|s| body.push_str(&format!("    value = {};\n", call(s, "value"))));
+                body.push_str("    return value;\n");
+            }
+            Fold::Of(operator, none) => {
+                body.push_str(&format!("    var value = {none};\n"));
+                for s in sections {
+                    // Each is called, whatever the others say: textures are read by neighbours together.
+                    body.push_str(&format!("    let of_{s} = {};\n    value = value {operator} of_{s};\n", call(s, last)));
+                }
+                body.push_str("    return value;\n");
+            }
+            Fold::Last(none) => {
+                let value = sections.last().map_or_else(|| (*none).to_owned(), |s| call(s, last));
+                body.push_str(&format!("    return {value};\n"));
+            }
+        }
+        let _ = writeln!(page, "fn stage_{name}({takes}){arrow} {{\n{body}}}");
+    }
+}
+
+/// Text of a section's file.
+fn look_text(about: &About) -> &'static str {
+    about.wgsl.unwrap_or_else(|| file(&format!("look/{}", about.key)))
+}
+
+fn has_function(text: &str, key: &str, stage: &str) -> bool {
+    text.contains(&format!("fn {key}_{stage}("))
+}
+
+fn hooks_of(about: &About) -> Vec<&'static str> {
+    let model = file(&format!("model/{}", about.key));
+    let has = |stage: &&Stage| {
+        has_function(look_text(about), about.key, stage.name)
+            || (about.is_model && has_function(model, about.key, stage.name))
+    };
+    STAGES.iter().filter(has).map(|s| s.name).collect()
+}
+
+fn module_path(parts: &[&str]) -> ModulePath {
+    ModulePath::new(wesl::syntax::PathOrigin::Absolute, parts.iter().map(|p| (*p).to_owned()).collect())
+}
+
+/// Files as the linker finds them.
+struct Tree<'a> {
+    page: String,
+    own: &'a [&'static About],
+}
+
+impl Resolver for Tree<'_> {
+    fn resolve_source<'a>(&'a self, path: &ModulePath) -> std::result::Result<Cow<'a, str>, ResolveError> {
+        let module = path.components.join("/");
+        if module == "material" {
+            return Ok(Cow::Borrowed(&self.page));
+        }
+        let own = self.own.iter().find(|a| module == format!("look/{}", a.key)).and_then(|a| a.wgsl);
+        let text = own.or_else(|| tree().iter().find(|(name, _)| *name == module).map(|(_, text)| *text));
+        text.map(Cow::Borrowed)
+            .ok_or_else(|| ResolveError::ModuleNotFound(path.clone(), "there is no such file in wgsl/".to_owned()))
+    }
+}
+
+/// What a text binds of its material, by number.
+fn bindings(module: &naga::Module) -> Vec<Binding> {
+    let mut list: Vec<Binding> = module
+        .global_variables
+        .iter()
+        .filter_map(|(_, variable)| {
+            let at = variable.binding.as_ref().filter(|b| b.group == 2)?;
+            let kind = match module.types[variable.ty].inner {
+                naga::TypeInner::Image { arrayed: true, .. } => BindingKind::TextureArray,
+                naga::TypeInner::Image { .. } => BindingKind::Texture,
+                naga::TypeInner::Sampler { .. } => BindingKind::Sampler,
+                _ => BindingKind::Numbers,
+            };
+            Some(Binding { index: at.binding, name: variable.name.clone().unwrap_or_default(), kind })
+        })
+        .collect();
+    list.sort();
+    list
+}
+
+/// The front end's error, at the line of the section that wrote it.
+fn fault_in(sections: &[&'static About], text: &str, error: &naga::front::wgsl::ParseError) -> Error {
+    let line = error.location(text).and_then(|l| text.lines().nth(l.line_number as usize - 1)).unwrap_or_default();
+    located(sections, text, line, error.message())
+}
+
+/// Where a line of a linked text comes from.
+fn located(sections: &[&'static About], text: &str, line: &str, message: &str) -> Error {
+    let bare = |s: &str| s.chars().filter(|c| !c.is_whitespace() && !"();,".contains(*c)).collect::<String>();
+    let wanted = bare(line);
+    let found = sections.iter().filter(|a| a.wgsl.is_some()).find_map(|about| {
+        let source = about.wgsl?;
+        let at = source.lines().position(|l| !wanted.is_empty() && bare(l) == wanted).or_else(|| {
+            // The linker writes statements anew: the function is near enough.
+            let before = &text[..text.find(line)?];
+            let function = &before[before.rfind("\nfn ")? + 1..];
+            let name = function.split('(').next()?;
+            source.lines().position(|l| l.starts_with(name))
+        });
+        Some((format!("{}.wgsl", about.key), format!("line {}", at? + 1)))
+    });
+    let (path, pointer) = found.unwrap_or_else(|| ("wgsl".to_owned(), "linked text".to_owned()));
+    Error::Input { path, pointer, message: format!("{message}: {}", line.trim()) }
+}
+
+/// Links and validates a section of an application in a toon surface, with every option off and with its textures.
+pub(crate) fn check_section<S: Section + Declared + Default>() -> Result<()> {
+    let about = S::ABOUT;
+    let shaders = Shaders::with(registered().into_iter().map(|r| r.about).chain([about]).collect())?;
+    let base = LISTED.iter().copied().filter(|a| ["base", "toon"].contains(&a.key));
+    let mut recipe = Recipe { sections: base.chain([about]).collect(), ..Recipe::plain("opaque") };
+    for option in ["lit", "normal", "world", "uv"].iter().chain(about.needs) {
+        recipe.options.set(*option, true);
+    }
+    for field in about.fields.iter().filter(|f| matches!(f.kind, crate::material::Kind::Texture(_))) {
+        let name = format!("{}_{}", about.key, field.name);
+        recipe.options.set(name.clone(), true);
+        recipe.textures.push(Bound { name, is_array: false });
+    }
+    let linked = shaders.linked(&recipe)?;
+    let module = naga::front::wgsl::parse_str(&linked.text).map_err(|e| fault_in(&recipe.sections, &linked.text, &e))?;
+    let mut validator =
+        naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::empty());
+    validator.validate(&module).map(|_| ()).map_err(|e| {
+        let line = e.location(&linked.text).and_then(|l| linked.text.lines().nth(l.line_number as usize - 1));
+        located(&recipe.sections, &linked.text, line.unwrap_or_default(), &e.as_inner().to_string())
     })
 }

@@ -12,18 +12,10 @@ use crate::{
     Error, Gpu, Result,
     color::{linear_from_srgb, srgb_from_linear},
     gpu::MAX_TEXTURE_SIDE,
+    material::{Encoding, Read},
     scene::{Filter, Image, Sampler, Texture, Wrap},
     sdf::FaceMap,
 };
-
-/// What the numbers of an image mean.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub(crate) enum Encoding {
-    /// sRGB colour with straight alpha.
-    Srgb,
-    /// Plain numbers: masks, normal maps.
-    Linear,
-}
 
 /// GPU textures and samplers of a scene, each made once.
 #[derive(Debug)]
@@ -31,10 +23,10 @@ pub(crate) struct TextureSet {
     views: HashMap<(usize, Encoding), wgpu::TextureView>,
     samplers: HashMap<Sampler, wgpu::Sampler>,
     /// White, sRGB: stands where a material has no texture.
-    white: wgpu::TextureView,
+    pub white: wgpu::TextureView,
     /// The same where a shader expects layers.
-    white_array: wgpu::TextureView,
-    default_sampler: wgpu::Sampler,
+    pub white_array: wgpu::TextureView,
+    pub default_sampler: wgpu::Sampler,
     clamped_sampler: wgpu::Sampler,
     face_maps: Vec<wgpu::TextureView>,
     /// Texel bytes of all textures, mips included.
@@ -98,20 +90,17 @@ impl TextureSet {
     }
 
     /// View and sampler of a face map, or white.
-    pub fn face(&self, map: Option<usize>) -> (&wgpu::TextureView, &wgpu::Sampler) {
-        (map.and_then(|m| self.face_maps.get(m)).unwrap_or(&self.white_array), &self.clamped_sampler)
+    pub fn face(&self, map: usize) -> (&wgpu::TextureView, &wgpu::Sampler) {
+        (self.face_maps.get(map).unwrap_or(&self.white_array), &self.clamped_sampler)
     }
 
     /// View and sampler of a scene's texture, or white.
-    pub fn get(
-        &self,
-        textures: &[Texture],
-        texture: Option<usize>,
-        encoding: Encoding,
-    ) -> (&wgpu::TextureView, &wgpu::Sampler) {
-        let texture = texture.and_then(|t| textures.get(t));
-        let found = texture.and_then(|t| Some((self.views.get(&(t.image, encoding))?, self.samplers.get(&t.sampler)?)));
-        found.unwrap_or((&self.white, &self.default_sampler))
+    pub fn get(&self, textures: &[Texture], texture: usize, read: Read) -> (&wgpu::TextureView, &wgpu::Sampler) {
+        let texture = textures.get(texture);
+        let found =
+            texture.and_then(|t| Some((self.views.get(&(t.image, read.encoding))?, self.samplers.get(&t.sampler)?)));
+        let (view, sampler) = found.unwrap_or((&self.white, &self.default_sampler));
+        (view, if read.clamped { &self.clamped_sampler } else { sampler })
     }
 }
 

@@ -2,7 +2,7 @@
 
 use glam::{Mat4, Quat, Vec3};
 
-use super::{MAX_TEXTURE_SIDE, Output, uniforms::unpack_unit};
+use super::{MAX_TEXTURE_SIDE, Output, vertex::unpack_unit};
 use crate::{
     Error, Result,
     color::Srgb,
@@ -67,8 +67,7 @@ impl Background {
 }
 
 /// What a [`View`] shows.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Channel {
     /// The shaded picture.
     #[default]
@@ -80,139 +79,48 @@ pub enum Channel {
     /// Part index + 1 in red (low byte) and green (high byte), 0 in the background. Parts are the primitives of the
     /// scene in the order of nodes.
     PartId,
-    /// Share of light by a face's threshold map; dark grey times the light of everything else.
-    FaceShadow,
-    /// Tint of light that is about to turn into shade; white where it does nothing.
-    Transition,
-    /// Blush and lines, as what they multiply.
-    FacePaint,
-    /// Share of painted highlights.
-    Highlight,
-    /// Share of light that bangs, lids and lashes let through; black where nothing receives their shadow.
-    BangsShadow,
-    /// Index of cards in a stack, lighter above; black elsewhere.
-    Layer,
-    /// Rim by depth.
-    DepthRim,
-    /// How much of eyes and brows is seen through hair.
-    EyesThrough,
-    /// Place on the ramp from shade to light; black where there is none.
-    ShadeRamp,
-    /// Regions of painted fur: light in red, terminator in green, shade in blue.
-    Fur,
-    /// Share of the key light that a character lets through to itself; black where nothing receives its shadow.
-    SelfShadow,
-    /// Stones: light that is gathered or thrown back in red, depth of what is enclosed in green, what is mirrored in blue.
-    Stone,
-    /// Light of sparks.
-    Sparkle,
-    /// Heat of fire.
-    Fire,
-    /// Height of a coat of short hair, root to tip.
-    Fluff,
-    /// Surfaces that burn away: the border dark green, what is whole yellow.
-    Dissolve,
-    /// Light of a surface of its own.
-    Emission,
-    /// Share that decals and stockings cover.
-    Overlay,
-    /// Lines inside of the shape.
-    InnerLines,
+    /// What a look does, by the name of its channel: `face-shadow`, `sparkle`. [`Channel::all`] lists them.
+    Look(&'static str),
 }
 
+/// Channels that no section of a material has.
+const OTHERS: [(Channel, &str, &str); 5] = [
+    (Channel::Final, "final", "The shaded picture."),
+    (Channel::Normal, "normal", "Normals as the camera sees them."),
+    (Channel::Depth, "depth", "Distance from the camera, white where it is near."),
+    (Channel::PartId, "part-id", "Number of each part."),
+    (Channel::Look("eyes-through"), "eyes-through", "How much of eyes and brows is seen through hair."),
+];
+
 impl Channel {
-    /// All channels.
-    pub const ALL: &'static [Self] = &[
-        Self::Final,
-        Self::Normal,
-        Self::Depth,
-        Self::PartId,
-        Self::FaceShadow,
-        Self::Transition,
-        Self::FacePaint,
-        Self::Highlight,
-        Self::BangsShadow,
-        Self::Layer,
-        Self::DepthRim,
-        Self::EyesThrough,
-        Self::ShadeRamp,
-        Self::Fur,
-        Self::SelfShadow,
-        Self::Stone,
-        Self::Sparkle,
-        Self::Fire,
-        Self::Fluff,
-        Self::Dissolve,
-        Self::Emission,
-        Self::Overlay,
-        Self::InnerLines,
-    ];
+    /// All channels with their names and what they show; those of an application's sections come last.
+    pub fn all() -> impl Iterator<Item = (Self, &'static str, &'static str)> {
+        // Sections may share one.
+        let mut of_looks: Vec<(&str, &str)> = Vec::new();
+        for channel in crate::material::all().filter_map(|about| about.channel) {
+            if !of_looks.iter().any(|(name, _)| *name == channel.0) {
+                of_looks.push(channel);
+            }
+        }
+        OTHERS.into_iter().chain(of_looks.into_iter().map(|(name, doc)| (Self::Look(name), name, doc)))
+    }
 
     /// Its name: `final`, `normal`, `depth`, `part-id`, `face-shadow` and so on.
     #[must_use]
-    pub const fn name(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         match self {
             Self::Final => "final",
             Self::Normal => "normal",
             Self::Depth => "depth",
             Self::PartId => "part-id",
-            Self::FaceShadow => "face-shadow",
-            Self::Transition => "transition",
-            Self::FacePaint => "face-paint",
-            Self::Highlight => "highlight",
-            Self::BangsShadow => "bangs-shadow",
-            Self::Layer => "layer",
-            Self::DepthRim => "depth-rim",
-            Self::EyesThrough => "eyes-through",
-            Self::ShadeRamp => "shade-ramp",
-            Self::Fur => "fur",
-            Self::SelfShadow => "self-shadow",
-            Self::Stone => "stone",
-            Self::Sparkle => "sparkle",
-            Self::Fire => "fire",
-            Self::Fluff => "fluff",
-            Self::Dissolve => "dissolve",
-            Self::Emission => "emission",
-            Self::Overlay => "overlay",
-            Self::InnerLines => "inner-lines",
+            Self::Look(name) => name,
         }
     }
 
     /// The channel of this name.
     #[must_use]
     pub fn from_name(name: &str) -> Option<Self> {
-        Self::ALL.iter().copied().find(|c| c.name() == name)
-    }
-
-    /// Whether the prepass draws it.
-    pub(crate) fn is_geometry(self) -> bool {
-        matches!(self, Self::Normal | Self::Depth | Self::PartId)
-    }
-
-    /// Number by which shaders know a channel of shading: `CHANNEL_*` in `wgsl/bind/options.wgsl`.
-    pub(crate) fn shader_code(self) -> Option<u32> {
-        Some(match self {
-            Self::Final | Self::Normal | Self::Depth | Self::PartId => return None,
-            Self::FaceShadow => 1,
-            Self::Transition => 2,
-            Self::FacePaint => 3,
-            Self::Highlight => 4,
-            Self::BangsShadow => 5,
-            Self::Layer => 6,
-            Self::DepthRim => 7,
-            Self::EyesThrough => 8,
-            Self::ShadeRamp => 9,
-            Self::Fur => 10,
-            Self::SelfShadow => 11,
-            Self::Stone => 12,
-            Self::Sparkle => 13,
-            Self::Fire => 14,
-            Self::Fluff => 15,
-            Self::Dissolve => 16,
-            Self::Emission => 17,
-            Self::Overlay => 18,
-            Self::InnerLines => 19,
-        })
+        Self::all().find(|(_, known, _)| *known == name).map(|(channel, ..)| channel)
     }
 
     /// Turns read-back texels of the prepass into a picture.
@@ -352,6 +260,12 @@ impl View {
         let spanned = forward.cross(camera.up).length_squared();
         if !camera.eye.is_finite() || !spanned.is_finite() || spanned <= 0.0 {
             return fault("camera", "eye, target and up must be finite and span a plane".to_owned());
+        }
+        if let Channel::Look(name) = self.channel
+            && Channel::from_name(name).is_none()
+        {
+            let known: Vec<&str> = Channel::all().map(|(_, name, _)| name).collect();
+            return fault("channel", format!("is {name:?}; expected one of {}", known.join(", ")));
         }
         if self.instances.is_empty() {
             return fault("instances", "is empty; expected at least one transform".to_owned());

@@ -29,6 +29,14 @@ pub struct Bloom {
     pub radius: f32,
 }
 
+impl Bloom {
+    /// Pictures below that of the light: each doubles the reach of about two texels, and the light stands at half the size.
+    pub(crate) fn levels(&self, height: u32) -> usize {
+        let reach_px = (self.radius.clamp(0.002, 0.25) * height as f32 * 0.25).max(1.0);
+        (reach_px.log2().round() as usize).clamp(1, 7)
+    }
+}
+
 impl Default for Bloom {
     fn default() -> Self {
         Self { strength: 0.6, radius: 0.04 }

@@ -30,7 +30,7 @@ fn fire_sway(uv: vec2f, phase: f32, cells: i32, sway: f32) -> f32 {
 }
 
 // Heat of a place from that of the drawn shape.
-fn fire_heat(drawn: f32, noise: f32, turbulence: f32) -> f32 {
+fn fire_heated(drawn: f32, noise: f32, turbulence: f32) -> f32 {
     return drawn * mix(1.0, saturate(noise * 1.5), turbulence);
 }
 

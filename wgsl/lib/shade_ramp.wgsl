@@ -6,3 +6,9 @@ fn ramp_bands(lit: vec3f, shade: vec3f, terminator: vec3f, edges: vec4f, place: 
     let band = mix(shade, terminator, smoothstep(edges.x, max(edges.y, edges.x + 1e-4), place));
     return mix(band, lit, smoothstep(edges.z, max(edges.w, edges.z + 1e-4), place));
 }
+
+// Number of a part in a map of ids, from 0 on; -1 where it knows none.
+fn part_number(red: f32) -> i32 {
+    let part = i32(red * 255.0 + 0.5) - 1;
+    return select(-1, part, part < 8);
+}

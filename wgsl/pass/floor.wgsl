@@ -1,19 +1,20 @@
 // The least that a renderer can do: the same triangles with one texture and no light. Benches measure against it.
 import package::bind::frame::frame;
-import package::bind::material::{material, base_texture, base_sampler};
+import package::bind::varying::Varying;
 import package::bind::vertex::{VertexInput, world_position};
-
-struct FloorVarying {
-    @builtin(position) clip_position: vec4f,
-    @location(0) uv: vec2f,
-}
+import package::material::{base_texture, base_texture_sampler, material};
 
 @vertex
-fn vs_main(v: VertexInput) -> FloorVarying {
-    return FloorVarying(frame.clip_from_world * vec4f(world_position(v, v.position), 1.0), v.uv.xy);
+fn vs_main(v: VertexInput) -> Varying {
+    var out: Varying;
+    out.clip_position = frame.clip_from_world * vec4f(world_position(v, v.position), 1.0);
+    out.uv = v.uv;
+    return out;
 }
 
 @fragment
-fn fs_main(in: FloorVarying) -> @location(0) vec4f {
-    return vec4f(textureSample(base_texture, base_sampler, in.uv).rgb * material.base_color.rgb, 1.0);
+fn fs_main(in: Varying) -> @location(0) vec4f {
+    var color = material.base.color.rgb;
+    @if(base_texture) color *= textureSample(base_texture, base_texture_sampler, in.uv.xy).rgb;
+    return vec4f(color, 1.0);
 }

@@ -3,18 +3,14 @@ import package::bind::picture::{PictureVarying, picture_varying};
 import package::lib::color::srgb_from_linear;
 import package::lib::tone::toned;
 
-override ENCODE_SRGB: bool = false;
-// Smooths edges.
-override ANTIALIAS: bool = false;
-
-struct PostUniform {
+struct PostNumbers {
     // Linear, straight.
     background: vec4f,
     bloom: f32,
     tone: u32,
 }
 
-@group(0) @binding(0) var<uniform> post: PostUniform;
+@group(0) @binding(0) var<uniform> post: PostNumbers;
 @group(0) @binding(1) var picture: texture_2d<f32>;
 @group(0) @binding(2) var spread: texture_2d<f32>;
 @group(0) @binding(3) var post_sampler: sampler;
@@ -66,11 +62,7 @@ fn smoothed(uv: vec2f, here: vec4f) -> vec4f {
 @fragment
 fn fs_main(in: PictureVarying) -> @location(0) vec4f {
     var color = finished(in.uv);
-    if ANTIALIAS {
-        color = smoothed(in.uv, color);
-    }
-    if ENCODE_SRGB {
-        return vec4f(srgb_from_linear(color.rgb), color.a);
-    }
+    @if(antialias) color = smoothed(in.uv, color);
+    @if(encode_srgb) color = vec4f(srgb_from_linear(color.rgb), color.a);
     return color;
 }

@@ -1,9 +1,9 @@
 //! Nearest depths of the map of the bangs, by blocks: they spare most receivers its taps.
 
-use crate::{
-    Gpu,
-    render::{pass::bangs_shadow, shaders},
-};
+use super::bangs_shadow;
+use crate::render::shaders::Recipe;
+use crate::render::variants::Variants;
+use crate::{Gpu, Result};
 
 /// Texels of the map along a block; `BANGS_BLOCK` in `wgsl/lib/bangs.wgsl` (a test compares them).
 pub(crate) const BLOCK: u32 = 8;
@@ -21,9 +21,9 @@ pub(crate) struct BangsNearInputs<'a> {
 }
 
 impl BangsNearPass {
-    pub fn new(gpu: &Gpu) -> Self {
-        let module = shaders::module(&gpu.device, "bangs_near");
-        let pipeline = gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+    pub fn new(variants: &Variants) -> Result<Self> {
+        let module = variants.plain_module(&Recipe::plain("bangs_near"))?;
+        let pipeline = variants.gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some("bangs near"),
             layout: None,
             vertex: wgpu::VertexState {
@@ -44,7 +44,7 @@ impl BangsNearPass {
             multiview_mask: None,
             cache: None,
         });
-        Self { pipeline }
+        Ok(Self { pipeline })
     }
 
     /// Binds a layer of the map.
@@ -86,7 +86,7 @@ mod tests {
 
     #[test]
     fn blocks_are_as_large_in_the_shader() {
-        let (_, text) = shaders::ENTRIES.iter().find(|(stem, _)| *stem == "bangs_near").expect("an entry");
+        let text = crate::render::shaders::file("lib/bangs");
         let module = naga::front::wgsl::parse_str(text).expect("valid WGSL");
         let named = module.constants.iter().find(|(_, c)| c.name.as_deref() == Some("BANGS_BLOCK"));
         let value = &module.global_expressions[named.expect("a constant").1.init];

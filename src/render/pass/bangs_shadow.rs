@@ -1,35 +1,19 @@
 //! Depth of what casts on the face, seen from the light of the bangs' shadow.
 
-use std::collections::HashMap;
-
 use glam::{Mat4, Vec3, Vec4};
 
-use super::{
-    DEPTH_FORMAT, SurfaceFlags, SurfacePipeline,
-    bangs_near::{self, BangsNearInputs, BangsNearPass},
-    map_depth_state, surface_pipeline,
-};
-use crate::{
-    Gpu,
-    material::Material,
-    render::{
-        Layouts,
-        draw_list::{self, Draw},
-        shaders, targets,
-        upload::GpuScene,
-    },
-    scene::Bangs,
-};
+use super::bangs_near::{self, BangsNearInputs, BangsNearPass};
+use super::{DEPTH_FORMAT, map_request};
+use crate::Gpu;
+use crate::render::draw_list::{self, Draw, Pipelines};
+use crate::render::material::Composition;
+use crate::render::targets;
+use crate::render::upload::GpuScene;
+use crate::render::variants::{Drawn, Request};
+use crate::scene::Bangs;
 
 /// Depth of the nearest hair, 0..1 over the range.
 pub(crate) const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R32Float;
-
-/// Pipelines by what a material's cut needs.
-#[derive(Debug)]
-pub(crate) struct BangsShadowPass {
-    module: wgpu::ShaderModule,
-    pipelines: HashMap<Option<SurfaceFlags>, wgpu::RenderPipeline>,
-}
 
 /// The map of one scene and the camera that draws it.
 #[derive(Debug)]
@@ -65,11 +49,16 @@ enum Casts {
 }
 
 impl Casts {
-    /// The pipeline of a draw that casts, and whose parts do, of a crowd of so many.
-    fn of(self, draw: &Draw, crowd: u32) -> Option<(&wgpu::RenderPipeline, std::ops::Range<u32>)> {
+    /// What draws a draw that casts, and whose parts do, of a crowd of so many.
+    fn of<'p>(
+        self,
+        draw: &Draw,
+        pipelines: &'p Pipelines<Drawn>,
+        crowd: u32,
+    ) -> Option<(&'p Drawn, std::ops::Range<u32>)> {
         let (pipeline, instances) = match self {
-            Self::OnFace => (draw.bangs.as_ref()?, u32::from(!draw.casts_on_face)..crowd.min(MOST_CASTING)),
-            Self::OnEyes => (draw.lids.as_ref()?, 0..1),
+            Self::OnFace => (pipelines.bangs.as_ref()?, u32::from(!draw.casts_on_face)..crowd.min(MOST_CASTING)),
+            Self::OnEyes => (pipelines.bangs.as_ref().filter(|_| draw.casts_lids)?, 0..1),
         };
         (!instances.is_empty()).then_some((pipeline, instances))
     }
@@ -166,91 +155,61 @@ fn texture(
     })
 }
 
-impl BangsShadowPass {
-    pub fn new(gpu: &Gpu) -> Self {
-        Self { module: shaders::module(&gpu.device, "bangs_shadow"), pipelines: HashMap::new() }
-    }
+/// What draws a material.
+pub(crate) fn request(of: &Composition, colors: bool) -> Request {
+    map_request(of.cut("bangs_shadow", colors, false).with("depth", true), 0.0, Some(FORMAT))
+}
 
-    /// The pipeline for a material of hair, made on first use.
-    pub fn pipeline(
-        &mut self,
-        gpu: &Gpu,
-        layouts: &Layouts,
-        flags: SurfaceFlags,
-        material: &Material,
-    ) -> wgpu::RenderPipeline {
-        let cut = SurfaceFlags { dither_fade: false, ..flags }.cut(material);
-        let make = || {
-            let desc = SurfacePipeline {
-                label: "bangs shadow",
-                module: &self.module,
-                vertex: "vs_main",
-                fragment: Some("fs_main"),
-                constants: &SurfaceFlags::cut_constants(cut),
-                // Cards of hair have no back.
-                cull: None,
-                depth: Some(map_depth_state(0.0)),
-                samples: 1,
-                targets: &[Some(FORMAT.into())],
-            };
-            surface_pipeline(gpu, layouts, &desc)
-        };
-        self.pipelines.entry(cut).or_insert_with(make).clone()
+/// Draws what casts on the face of the first character: front hair, clothes, hands, and all of the others; then her lids
+/// and lashes.
+pub(crate) fn encode(
+    encoder: &mut wgpu::CommandEncoder,
+    inputs: &BangsShadowInputs<'_>,
+    timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
+) {
+    let last = inputs.map.layers.len() - 1;
+    for (i, (layer, casts)) in inputs.map.layers.iter().zip([Casts::OnFace, Casts::OnEyes]).enumerate() {
+        // From the beginning of the first pass to the end of the last.
+        let begin = timestamps.clone().filter(|_| i == 0);
+        let end = timestamps.clone().filter(|_| i == last);
+        let begin = begin.map(|t| wgpu::RenderPassTimestampWrites { end_of_pass_write_index: None, ..t });
+        let end = end.map(|t| wgpu::RenderPassTimestampWrites { beginning_of_pass_write_index: None, ..t });
+        encode_layer(encoder, inputs, &layer.map, casts, begin);
+        inputs.reduce.encode(encoder, &BangsNearInputs { map: &layer.near_input, near: &layer.near }, end);
     }
+}
 
-    /// Draws what casts on the face of the first character: front hair, clothes, hands, and all of the others; then her lids
-    /// and lashes.
-    pub fn encode(
-        &self,
-        encoder: &mut wgpu::CommandEncoder,
-        inputs: &BangsShadowInputs<'_>,
-        timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
-    ) {
-        let last = inputs.map.layers.len() - 1;
-        for (i, (layer, casts)) in inputs.map.layers.iter().zip([Casts::OnFace, Casts::OnEyes]).enumerate() {
-            // From the beginning of the first pass to the end of the last.
-            let begin = timestamps.clone().filter(|_| i == 0);
-            let end = timestamps.clone().filter(|_| i == last);
-            let begin = begin.map(|t| wgpu::RenderPassTimestampWrites { end_of_pass_write_index: None, ..t });
-            let end = end.map(|t| wgpu::RenderPassTimestampWrites { beginning_of_pass_write_index: None, ..t });
-            Self::encode_layer(encoder, inputs, &layer.map, casts, begin);
-            inputs.reduce.encode(encoder, &BangsNearInputs { map: &layer.near_input, near: &layer.near }, end);
-        }
-    }
-
-    fn encode_layer(
-        encoder: &mut wgpu::CommandEncoder,
-        inputs: &BangsShadowInputs<'_>,
-        layer: &wgpu::TextureView,
-        casts: Casts,
-        timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
-    ) {
-        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("bangs shadow"),
-            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                view: layer,
-                depth_slice: None,
-                resolve_target: None,
-                // No hair: behind everything.
-                ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::WHITE), store: wgpu::StoreOp::Store },
-            })],
-            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                view: &inputs.map.depth,
-                depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(1.0), store: wgpu::StoreOp::Discard }),
-                stencil_ops: None,
-            }),
-            timestamp_writes: timestamps,
-            ..Default::default()
-        });
-        // The map itself cannot be read while it is drawn.
-        let character = &inputs.scene.character_group_without_map;
-        draw_list::bind_scene(&mut pass, inputs.scene, inputs.frame, character);
-        for draw in &inputs.scene.draws {
-            if let Some((pipeline, instances)) = casts.of(draw, inputs.scene.instance_rows.len() as u32) {
-                pass.set_pipeline(pipeline);
-                pass.set_bind_group(2, &inputs.scene.material_groups[draw.material], &[]);
-                pass.draw_indexed(draw.indices.clone(), 0, instances);
-            }
+fn encode_layer(
+    encoder: &mut wgpu::CommandEncoder,
+    inputs: &BangsShadowInputs<'_>,
+    layer: &wgpu::TextureView,
+    casts: Casts,
+    timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
+) {
+    let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        label: Some("bangs shadow"),
+        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+            view: layer,
+            depth_slice: None,
+            resolve_target: None,
+            // No hair: behind everything.
+            ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::WHITE), store: wgpu::StoreOp::Store },
+        })],
+        depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+            view: &inputs.map.depth,
+            depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(1.0), store: wgpu::StoreOp::Discard }),
+            stencil_ops: None,
+        }),
+        timestamp_writes: timestamps,
+        ..Default::default()
+    });
+    // The map itself cannot be read while it is drawn.
+    let character = &inputs.scene.character_group_without_map;
+    draw_list::bind_scene(&mut pass, inputs.scene, inputs.frame, character);
+    let crowd = inputs.scene.instance_rows.len() as u32;
+    for (draw, pipelines) in inputs.scene.draws.iter().zip(&inputs.scene.picture) {
+        if let Some((drawn, instances)) = casts.of(draw, pipelines, crowd) {
+            draw_list::record_instances(&mut pass, inputs.scene, draw, drawn, instances);
         }
     }
 }

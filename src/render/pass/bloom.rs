@@ -1,7 +1,10 @@
 //! Spreads light over a chain of pictures, each half as large.
 
 use super::{ADD, HDR_FORMAT};
-use crate::{Gpu, render::targets, scene::Bloom};
+use crate::render::shaders::Recipe;
+use crate::render::targets;
+use crate::render::variants::Variants;
+use crate::{Gpu, Result};
 
 /// Its pipelines.
 #[derive(Debug)]
@@ -25,8 +28,9 @@ pub(crate) struct BloomInputs<'a> {
 }
 
 impl BloomPass {
-    pub fn new(gpu: &Gpu) -> Self {
-        let module = crate::render::shaders::module(&gpu.device, "bloom");
+    pub fn new(variants: &Variants) -> Result<Self> {
+        let gpu = &variants.gpu;
+        let module = variants.plain_module(&Recipe::plain("bloom"))?;
         let layout = targets::picture_layout(gpu, "bloom", 1, None);
         let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("bloom"),
@@ -34,18 +38,15 @@ impl BloomPass {
             immediate_size: 0,
         });
         let make = |entry, blend| {
-            targets::picture_pipeline(gpu, "bloom", &pipeline_layout, &module, entry, &[], HDR_FORMAT, blend)
+            targets::picture_pipeline(gpu, "bloom", &pipeline_layout, &module, entry, HDR_FORMAT, blend)
         };
         let (down, up) = (make("fs_down", None), make("fs_up", Some(ADD)));
         let sampler = targets::linear_sampler(gpu);
-        Self { layout, sampler, down, up }
+        Ok(Self { layout, sampler, down, up })
     }
 
-    /// A chain below a picture of light, as long as the radius asks for.
-    pub fn chain(&self, gpu: &Gpu, light: &wgpu::TextureView, height: u32, bloom: Bloom) -> BloomChain {
-        // The light stands at half the size; each level doubles the reach of about two texels.
-        let reach_px = (bloom.radius.clamp(0.002, 0.25) * height as f32 * 0.25).max(1.0);
-        let levels = (reach_px.log2().round() as usize).clamp(1, 7);
+    /// A chain of so many pictures below one of light.
+    pub fn chain(&self, gpu: &Gpu, light: &wgpu::TextureView, levels: usize) -> BloomChain {
         let mut size = [light.texture().width(), light.texture().height()];
         let mut views = vec![light.clone()];
         for _ in 0..levels {

@@ -2,14 +2,11 @@
 
 use wgpu::util::DeviceExt;
 
-use crate::{
-    Gpu,
-    render::{
-        shaders,
-        uniforms::{AffineRows, DeformGroup, DeformVertex, MorphEntry},
-        upload::GpuScene,
-    },
-};
+use crate::render::shaders::Recipe;
+use crate::render::upload::GpuScene;
+use crate::render::variants::Variants;
+use crate::render::vertex::{AffineRows, DeformGroup, DeformVertex, MorphEntry};
+use crate::{Gpu, Result};
 
 const WORKGROUP: u32 = 64;
 /// Most workgroups along one axis in WebGPU; `wgsl/pass/deform.wgsl` counts rows of as many.
@@ -50,16 +47,16 @@ pub(crate) struct DeformInputs<'a> {
 }
 
 impl DeformPass {
-    pub fn new(gpu: &Gpu) -> Self {
-        let pipeline = gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+    pub fn new(variants: &Variants) -> Result<Self> {
+        let pipeline = variants.gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
             label: Some("deform"),
             layout: None,
-            module: &shaders::module(&gpu.device, "deform"),
+            module: &variants.plain_module(&Recipe::plain("deform"))?,
             entry_point: Some("main"),
             compilation_options: wgpu::PipelineCompilationOptions::default(),
             cache: None,
         });
-        Self { pipeline }
+        Ok(Self { pipeline })
     }
 
     /// Uploads what deforms a scene.

@@ -1,80 +1,34 @@
 //! Opaque and alpha-masked surfaces.
 
-use std::collections::HashMap;
+use super::{Drawing, Mark, Picture, surface_cull};
+use crate::material::{AlphaMode, Material};
+use crate::render::draw_list::{self, Pipelines};
+use crate::render::material::Composition;
+use crate::render::upload::GpuScene;
+use crate::render::variants::{Drawn, Request};
 
-use super::{ColorPipeline, Mark, SurfaceFlags, color_pipeline, encode_constant, surface_cull};
-use crate::{
-    Gpu,
-    material::Material,
-    render::{Layouts, Output, draw_list, shaders, upload::GpuScene},
-};
-
-/// Pipelines by what a material uses.
-#[derive(Debug)]
-pub(crate) struct OpaquePass {
-    output: Output,
-    module: wgpu::ShaderModule,
-    pipelines: HashMap<(SurfaceFlags, bool, Mark), wgpu::RenderPipeline>,
+/// What draws a material.
+pub(crate) fn request(picture: &Picture<'_>, of: &Composition, material: &Material, colors: bool, mark: Mark) -> Request {
+    let is_masked = of.alpha == AlphaMode::Mask;
+    // With several samples a cut can cover part of a pixel.
+    let (covers, dithers) = (is_masked && picture.has_samples(), of.has("dither_fade") && picture.has_samples());
+    let recipe = of
+        .recipe("opaque", colors, |_| true)
+        .with("alpha_mask", is_masked)
+        .with("alpha_coverage", covers)
+        .with("dither_samples", dithers)
+        .with("covered", covers || dithers);
+    picture.request(recipe, Drawing { cull: surface_cull(material), blend: false, write_depth: true, mark })
 }
 
-/// What the pass reads.
-pub(crate) struct OpaqueInputs<'a> {
-    pub scene: &'a GpuScene,
-}
-
-impl OpaquePass {
-    pub fn new(gpu: &Gpu, output: Output) -> Self {
-        Self { output, module: shaders::module(&gpu.device, "opaque"), pipelines: HashMap::new() }
-    }
-
-    /// The pipeline for a material, made on first use.
-    pub fn pipeline(
-        &mut self,
-        gpu: &Gpu,
-        layouts: &Layouts,
-        flags: SurfaceFlags,
-        material: &Material,
-        mark: Mark,
-    ) -> wgpu::RenderPipeline {
-        // With several samples a cut can cover part of a pixel.
-        let has_samples = self.output.samples == 4;
-        let flags = SurfaceFlags {
-            alpha_coverage: flags.alpha_mask && has_samples,
-            dither_samples: flags.dither_fade && has_samples,
-            ..flags
-        };
-        let covered = flags.alpha_coverage || flags.dither_samples;
-        let make = || {
-            let mut constants = flags.constants();
-            constants.push(encode_constant(flags.output(self.output)));
-            color_pipeline(
-                gpu,
-                layouts,
-                flags.output(self.output),
-                &ColorPipeline {
-                    label: "opaque",
-                    module: &self.module,
-                    fragment: if covered { "fs_covered" } else { "fs_main" },
-                    constants: &constants,
-                    cull: surface_cull(material),
-                    blend: false,
-                    write_depth: true,
-                    mark,
-                },
-            )
-        };
-        self.pipelines.entry((flags, material.double_sided, mark)).or_insert_with(make).clone()
-    }
-
-    /// Draws all opaque surfaces, then all masked ones (the order of upload). Where eyes are to be seen through hair, they
-    /// follow what is neither, and hair comes last.
-    pub fn encode(&self, pass: &mut wgpu::RenderPass<'_>, inputs: &OpaqueInputs<'_>) {
-        for draw in inputs.scene.draws.iter().filter(|d| !d.blend) {
-            if draw.mark == Mark::None {
-                draw_list::record(pass, inputs.scene, draw, &draw.surface);
-            } else {
-                draw_list::record_marked(pass, inputs.scene, draw, &draw.surface, draw.mark);
-            }
+/// Draws all opaque surfaces, then all masked ones (the order of upload). Where eyes are to be seen through hair, they
+/// follow what is neither, and hair comes last.
+pub(crate) fn encode(pass: &mut wgpu::RenderPass<'_>, scene: &GpuScene, shown: &[Pipelines<Drawn>]) {
+    for (draw, pipelines) in scene.draws.iter().zip(shown).filter(|(d, _)| !d.blend) {
+        if draw.mark == Mark::None {
+            draw_list::record(pass, scene, draw, &pipelines.surface);
+        } else {
+            draw_list::record_marked(pass, scene, draw, &pipelines.surface, draw.mark);
         }
     }
 }

@@ -1,24 +1,24 @@
 //! The finished picture: bloom, tone curve, background, smooth edges.
 
-use std::collections::HashMap;
+use super::encodes_srgb;
+use crate::render::frame::{post_numbers, put_post};
+use crate::render::layout::Filled;
+use crate::render::shaders::Recipe;
+use crate::render::variants::Variants;
+use crate::render::{Background, Output, targets};
+use crate::scene::Post;
+use crate::{Gpu, Result};
 
-use super::encode_constant;
-use crate::{
-    Gpu,
-    render::{Background, Output, shaders, targets, uniforms::PostUniform},
-    scene::Post,
-};
-
-/// Its pipelines, by whether edges are smoothed.
+/// Its pipeline, by whether edges are smoothed.
 #[derive(Debug)]
 pub(crate) struct PostPass {
     output: Output,
-    module: wgpu::ShaderModule,
     layout: wgpu::BindGroupLayout,
     pipeline_layout: wgpu::PipelineLayout,
     sampler: wgpu::Sampler,
+    numbers: Filled,
     uniform: wgpu::Buffer,
-    pipelines: HashMap<bool, wgpu::RenderPipeline>,
+    pipeline: (bool, wgpu::RenderPipeline),
 }
 
 /// What the pass reads and writes.
@@ -27,32 +27,33 @@ pub(crate) struct PostInputs<'a> {
     pub background: Background,
     /// Of [`PostPass::group`].
     pub group: &'a wgpu::BindGroup,
-    /// Of [`PostPass::pipeline`].
-    pub pipeline: &'a wgpu::RenderPipeline,
     pub target: &'a wgpu::TextureView,
 }
 
 impl PostPass {
-    pub fn new(gpu: &Gpu, output: Output) -> Self {
-        let layout = targets::picture_layout(gpu, "post", 2, Some(size_of::<PostUniform>() as u64));
-        Self {
+    pub fn new(variants: &Variants, output: Output) -> Result<Self> {
+        let gpu = &variants.gpu;
+        let numbers = post_numbers();
+        let layout = targets::picture_layout(gpu, "post", 2, Some(numbers.size()));
+        let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some("post"),
+            bind_group_layouts: &[Some(&layout)],
+            immediate_size: 0,
+        });
+        Ok(Self {
+            pipeline: (false, pipeline(variants, output, &pipeline_layout, false)?),
             output,
-            module: shaders::module(&gpu.device, "post"),
-            pipeline_layout: gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-                label: Some("post"),
-                bind_group_layouts: &[Some(&layout)],
-                immediate_size: 0,
-            }),
+            pipeline_layout,
             layout,
             sampler: targets::linear_sampler(gpu),
             uniform: gpu.device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some("post"),
-                size: size_of::<PostUniform>() as u64,
+                size: numbers.size(),
                 usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
                 mapped_at_creation: false,
             }),
-            pipelines: HashMap::new(),
-        }
+            numbers,
+        })
     }
 
     /// How the drawn picture and its spread light are read.
@@ -60,27 +61,37 @@ impl PostPass {
         targets::picture_group(gpu, &self.layout, Some(&self.uniform), &[picture, spread], &self.sampler)
     }
 
-    /// The pipeline for settings, made on first use.
-    pub fn pipeline(&mut self, gpu: &Gpu, post: Post) -> wgpu::RenderPipeline {
+    /// Makes the pipeline anew where edges are smoothed otherwise.
+    pub fn fit(&mut self, variants: &Variants, post: Post) -> Result<()> {
         let smooths = post.antialias && self.output.samples == 1;
-        let Self { output, module, pipeline_layout, pipelines, .. } = self;
-        let make = || {
-            let constants = [encode_constant(*output), ("ANTIALIAS", f64::from(u8::from(smooths)))];
-            targets::picture_pipeline(gpu, "post", pipeline_layout, module, "fs_main", &constants, output.format, None)
-        };
-        pipelines.entry(smooths).or_insert_with(make).clone()
+        if self.pipeline.0 != smooths {
+            self.pipeline = (smooths, pipeline(variants, self.output, &self.pipeline_layout, smooths)?);
+        }
+        Ok(())
     }
 
     /// Draws the finished picture.
     pub fn encode(
-        &self,
+        &mut self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
         inputs: &PostInputs<'_>,
         timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
     ) {
-        let uniform = PostUniform::new(inputs.post, inputs.background);
-        gpu.queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&uniform));
-        targets::draw_picture(encoder, "post", inputs.target, true, inputs.pipeline, inputs.group, timestamps);
+        let bytes = self.numbers.fill(|numbers| put_post(numbers, inputs.post, inputs.background));
+        gpu.queue.write_buffer(&self.uniform, 0, bytes);
+        targets::draw_picture(encoder, "post", inputs.target, true, &self.pipeline.1, inputs.group, timestamps);
     }
+}
+
+fn pipeline(
+    variants: &Variants,
+    output: Output,
+    layout: &wgpu::PipelineLayout,
+    smooths: bool,
+) -> Result<wgpu::RenderPipeline> {
+    let recipe =
+        Recipe::plain("post").with("encode_srgb", encodes_srgb(output.format)).with("antialias", smooths);
+    let module = variants.plain_module(&recipe)?;
+    Ok(targets::picture_pipeline(&variants.gpu, "post", layout, &module, "fs_main", output.format, None))
 }

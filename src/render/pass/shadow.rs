@@ -1,23 +1,14 @@
 //! Depth of characters from the key light, for the shadow of each on itself.
 
-use std::collections::HashMap;
-
 use glam::Vec3;
 
-use super::{DEPTH_FORMAT, SurfaceFlags, SurfacePipeline, map_depth_state, surface_pipeline};
-use crate::{
-    Gpu,
-    material::Material,
-    render::{Layouts, draw_list, shaders, upload::GpuScene},
-    scene::{MOST_SHADOWED, SelfShadow},
-};
-
-/// Pipelines by what a material's cut needs.
-#[derive(Debug)]
-pub(crate) struct ShadowPass {
-    module: wgpu::ShaderModule,
-    pipelines: HashMap<Option<SurfaceFlags>, wgpu::RenderPipeline>,
-}
+use super::{DEPTH_FORMAT, map_request};
+use crate::Gpu;
+use crate::render::draw_list;
+use crate::render::material::Composition;
+use crate::render::upload::GpuScene;
+use crate::render::variants::Request;
+use crate::scene::{MOST_SHADOWED, SelfShadow};
 
 /// The maps of a scene's characters, a layer for each.
 #[derive(Debug)]
@@ -132,74 +123,42 @@ pub(crate) fn sampler(gpu: &Gpu) -> wgpu::Sampler {
     })
 }
 
-impl ShadowPass {
-    pub fn new(gpu: &Gpu) -> Self {
-        Self { module: shaders::module(&gpu.device, "shadow"), pipelines: HashMap::new() }
-    }
+/// What draws a material that casts. Surfaces along the light are moved by their own slope.
+pub(crate) fn request(of: &Composition, colors: bool) -> Request {
+    map_request(of.cut("shadow", colors, false), 1.5, None)
+}
 
-    /// The pipeline for a material that casts, made on first use.
-    pub fn pipeline(
-        &mut self,
-        gpu: &Gpu,
-        layouts: &Layouts,
-        flags: SurfaceFlags,
-        material: &Material,
-    ) -> wgpu::RenderPipeline {
-        let cut = SurfaceFlags { dither_fade: false, ..flags }.cut(material);
-        let make = || {
-            let desc = SurfacePipeline {
-                label: "shadow",
-                module: &self.module,
-                vertex: "vs_main",
-                fragment: cut.map(|_| "fs_main"),
-                constants: &SurfaceFlags::cut_constants(cut),
-                // Cards have no back.
-                cull: None,
-                // Surfaces along the light are moved by their own slope.
-                depth: Some(map_depth_state(1.5)),
-                samples: 1,
-                targets: &[],
-            };
-            surface_pipeline(gpu, layouts, &desc)
-        };
-        self.pipelines.entry(cut).or_insert_with(make).clone()
-    }
-
-    /// Draws each character that has a map into its own.
-    pub fn encode(
-        &self,
-        encoder: &mut wgpu::CommandEncoder,
-        inputs: &ShadowInputs<'_>,
-        timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
-    ) {
-        let count = inputs.map.layers.len().min(inputs.scene.instance_rows.len());
-        for (i, layer) in inputs.map.layers.iter().take(count).enumerate() {
-            // From the beginning of the first pass to the end of the last.
-            let writes = timestamps.clone().map(|t| wgpu::RenderPassTimestampWrites {
-                beginning_of_pass_write_index: t.beginning_of_pass_write_index.filter(|_| i == 0),
-                end_of_pass_write_index: t.end_of_pass_write_index.filter(|_| i + 1 == count),
-                ..t
-            });
-            let writes =
-                writes.filter(|w| w.beginning_of_pass_write_index.is_some() || w.end_of_pass_write_index.is_some());
-            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                label: Some("shadow"),
-                depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                    view: layer,
-                    depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(1.0), store: wgpu::StoreOp::Store }),
-                    stencil_ops: None,
-                }),
-                timestamp_writes: writes,
-                ..Default::default()
-            });
-            // The map itself cannot be read while it is drawn.
-            draw_list::bind_scene(&mut pass, inputs.scene, inputs.frame, &inputs.scene.character_group_without_map);
-            for draw in &inputs.scene.draws {
-                if let Some(pipeline) = &draw.shadow {
-                    pass.set_pipeline(pipeline);
-                    pass.set_bind_group(2, &inputs.scene.material_groups[draw.material], &[]);
-                    pass.draw_indexed(draw.indices.clone(), 0, i as u32..i as u32 + 1);
-                }
+/// Draws each character that has a map into its own.
+pub(crate) fn encode(
+    encoder: &mut wgpu::CommandEncoder,
+    inputs: &ShadowInputs<'_>,
+    timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
+) {
+    let count = inputs.map.layers.len().min(inputs.scene.instance_rows.len());
+    for (i, layer) in inputs.map.layers.iter().take(count).enumerate() {
+        // From the beginning of the first pass to the end of the last.
+        let writes = timestamps.clone().map(|t| wgpu::RenderPassTimestampWrites {
+            beginning_of_pass_write_index: t.beginning_of_pass_write_index.filter(|_| i == 0),
+            end_of_pass_write_index: t.end_of_pass_write_index.filter(|_| i + 1 == count),
+            ..t
+        });
+        let writes =
+            writes.filter(|w| w.beginning_of_pass_write_index.is_some() || w.end_of_pass_write_index.is_some());
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("shadow"),
+            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                view: layer,
+                depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(1.0), store: wgpu::StoreOp::Store }),
+                stencil_ops: None,
+            }),
+            timestamp_writes: writes,
+            ..Default::default()
+        });
+        // The map itself cannot be read while it is drawn.
+        draw_list::bind_scene(&mut pass, inputs.scene, inputs.frame, &inputs.scene.character_group_without_map);
+        for (draw, pipelines) in inputs.scene.draws.iter().zip(&inputs.scene.picture) {
+            if let Some(shadow) = &pipelines.shadow {
+                draw_list::record_instances(&mut pass, inputs.scene, draw, shadow, i as u32..i as u32 + 1);
             }
         }
     }

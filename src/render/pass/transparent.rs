@@ -1,72 +1,26 @@
 //! Blended surfaces with their outlines, far before near.
 
-use std::collections::HashMap;
+use super::{Drawing, Mark, Picture, surface_cull};
+use crate::material::Material;
+use crate::render::draw_list::{self, Pipelines};
+use crate::render::material::Composition;
+use crate::render::upload::GpuScene;
+use crate::render::variants::{Drawn, Request};
 
-use super::{ColorPipeline, Mark, SurfaceFlags, color_pipeline, encode_constant, surface_cull};
-use crate::{
-    Gpu,
-    material::Material,
-    render::{Layouts, Output, draw_list, shaders, upload::GpuScene},
-};
-
-/// Pipelines by what a material uses.
-#[derive(Debug)]
-pub(crate) struct TransparentPass {
-    output: Output,
-    module: wgpu::ShaderModule,
-    pipelines: HashMap<(SurfaceFlags, bool, bool), wgpu::RenderPipeline>,
+/// What draws a material.
+pub(crate) fn request(picture: &Picture<'_>, of: &Composition, material: &Material, colors: bool) -> Request {
+    // What is blended fades by its alpha.
+    let recipe = of.recipe("transparent", colors, |_| true).with("dither_samples", of.has("dither_fade"));
+    let write_depth = material.alpha.write_depth;
+    picture.request(recipe, Drawing { cull: surface_cull(material), blend: true, write_depth, mark: Mark::None })
 }
 
-/// What the pass reads; `scene.transparent_order` is sorted for the view.
-pub(crate) struct TransparentInputs<'a> {
-    pub scene: &'a GpuScene,
-}
-
-impl TransparentPass {
-    pub fn new(gpu: &Gpu, output: Output) -> Self {
-        Self { output, module: shaders::module(&gpu.device, "transparent"), pipelines: HashMap::new() }
-    }
-
-    /// The pipeline for a material, made on first use.
-    pub fn pipeline(
-        &mut self,
-        gpu: &Gpu,
-        layouts: &Layouts,
-        flags: SurfaceFlags,
-        material: &Material,
-    ) -> wgpu::RenderPipeline {
-        // What is blended fades by its alpha.
-        let flags = SurfaceFlags { dither_samples: flags.dither_fade, ..flags };
-        let make = || {
-            let mut constants = flags.constants();
-            constants.push(encode_constant(flags.output(self.output)));
-            color_pipeline(
-                gpu,
-                layouts,
-                flags.output(self.output),
-                &ColorPipeline {
-                    label: "transparent",
-                    module: &self.module,
-                    fragment: "fs_main",
-                    constants: &constants,
-                    cull: surface_cull(material),
-                    blend: true,
-                    write_depth: material.alpha.write_depth,
-                    mark: Mark::None,
-                },
-            )
-        };
-        self.pipelines.entry((flags, material.double_sided, material.alpha.write_depth)).or_insert_with(make).clone()
-    }
-
-    /// Draws each surface, then its outline.
-    pub fn encode(&self, pass: &mut wgpu::RenderPass<'_>, inputs: &TransparentInputs<'_>) {
-        let scene = inputs.scene;
-        for draw in scene.transparent_order.iter().map(|&i| &scene.draws[i]) {
-            draw_list::record(pass, scene, draw, &draw.surface);
-            if let Some(outline) = &draw.outline {
-                draw_list::record(pass, scene, draw, outline);
-            }
+/// Draws each surface, then its outline; `scene.transparent_order` is sorted for the view.
+pub(crate) fn encode(pass: &mut wgpu::RenderPass<'_>, scene: &GpuScene, shown: &[Pipelines<Drawn>]) {
+    for (draw, pipelines) in scene.transparent_order.iter().map(|&i| (&scene.draws[i], &shown[i])) {
+        draw_list::record(pass, scene, draw, &pipelines.surface);
+        if let Some(outline) = &pipelines.outline {
+            draw_list::record(pass, scene, draw, outline);
         }
     }
 }

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::ValueEnum;
-use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use hikage::color::Srgb;
 use hikage::motion::Stance;
 use hikage::scene::Framing;
@@ -76,7 +76,7 @@ pub(crate) fn stance(text: &str) -> Result<Stance, String> {
 
 /// `--channel`.
 pub(crate) fn channel() -> impl TypedValueParser<Value = Channel> {
-    let names = Channel::ALL.iter().map(|c| c.name());
+    let names = Channel::all().map(|(_, name, doc)| PossibleValue::new(name).help(doc));
     PossibleValuesParser::new(names).map(|name| Channel::from_name(&name).unwrap_or_default())
 }
 

@@ -116,7 +116,7 @@ struct AdapterReport<'a> {
 struct OptionsReport<'a> {
     size: [u32; 2],
     samples: u32,
-    channel: Channel,
+    channel: &'static str,
     time_s: f32,
     background: String,
     expressions: &'a [(String, f32)],
@@ -225,7 +225,7 @@ fn options_report<'a>(args: &'a Args, view: &View) -> OptionsReport<'a> {
     OptionsReport {
         size: view.size,
         samples: args.samples,
-        channel: args.channel,
+        channel: args.channel.name(),
         time_s: view.time_s,
         background: match &view.background {
             Background::Color(hikage::color::Srgb([r, g, b])) => format!("#{r:02x}{g:02x}{b:02x}"),

@@ -1,6 +1,6 @@
 //! What a model will take on the GPU: an estimate from sizes alone, so that no GPU is needed.
 
-use hikage::material::{Material, Shading};
+use hikage::material::{Encoding, Material};
 use hikage::scene::{Image, Primitive, Scene};
 
 /// How an image is decoded when it is sampled.
@@ -13,39 +13,20 @@ pub(super) enum Use {
     Linear,
 }
 
-/// Textures of a material: what for, index of the texture, how it is decoded.
-pub(super) fn texture_uses(material: &Material) -> Vec<(&'static str, usize, Use)> {
-    let mut uses = Vec::new();
-    let mut add = |what, texture: Option<usize>, how| uses.extend(texture.map(|t| (what, t, how)));
-    add("base", material.base.texture.map(|t| t.texture), Use::Srgb);
-    add("normal", material.normal_map.map(|n| n.texture.texture), Use::Linear);
-    add("emission", material.emission.texture.map(|t| t.texture), Use::Srgb);
-    if let Shading::Toon(toon) = &material.shading {
-        add("shade", toon.shade_texture.map(|t| t.texture), Use::Srgb);
-        add("shade shift", toon.shift_texture.map(|t| t.texture), Use::Linear);
+impl From<Encoding> for Use {
+    fn from(encoding: Encoding) -> Self {
+        match encoding {
+            Encoding::Srgb => Self::Srgb,
+            Encoding::Linear => Self::Linear,
+        }
     }
-    add("matcap", material.matcap.map(|m| m.texture), Use::Srgb);
-    add("rim mask", material.rim.mask.map(|t| t.texture), Use::Srgb);
-    add("outline width", material.outline.and_then(|o| o.width_mask).map(|t| t.texture), Use::Linear);
-    add("uv mask", material.uv_animation.mask.map(|t| t.texture), Use::Linear);
-    add("highlight", material.authored.highlight.map(|t| t.texture), Use::Linear);
-    add("face paint", material.authored.face_paint.map(|t| t.texture), Use::Linear);
-    add("detail normal", material.authored.detail_normal.map(|t| t.texture), Use::Linear);
-    add("part ids", material.authored.part_ids.map(|t| t.texture), Use::Linear);
-    add("highlight shape", material.authored.highlight_shape.map(|t| t.texture), Use::Linear);
-    add("inclusions", material.authored.inclusions.map(|t| t.texture), Use::Srgb);
-    add("heat", material.authored.heat.map(|t| t.texture), Use::Linear);
-    if let Some([warm, cool]) = material.authored.ramps {
-        add("warm ramp", Some(warm.texture), Use::Srgb);
-        add("cool ramp", Some(cool.texture), Use::Srgb);
-    }
-    uses
 }
 
 /// For each image: how it is used, each way once. An image that is used both ways is uploaded twice.
 pub(super) fn image_uses(scene: &Scene) -> Vec<Vec<Use>> {
     let mut uses = vec![Vec::new(); scene.images.len()];
-    for (_, texture, how) in scene.materials.iter().flat_map(texture_uses) {
+    for (_, texture, encoding) in scene.materials.iter().flat_map(Material::textures) {
+        let how = Use::from(encoding);
         if let Some(list) = scene.textures.get(texture).and_then(|t| uses.get_mut(t.image))
             && !list.contains(&how)
         {

@@ -6,7 +6,7 @@ use hikage::material::Material;
 use hikage::scene::{Meta, Role, Scene, Source, Warning};
 use serde::Serialize;
 
-use super::memory::{Use, geometry_bytes, image_uses, mipped_bytes, texture_uses};
+use super::memory::{Use, geometry_bytes, image_uses, mipped_bytes};
 
 /// Everything that `hikage inspect` says about a model.
 #[derive(Serialize)]
@@ -62,7 +62,7 @@ pub(super) struct MaterialSummary<'a> {
     pub(super) index: usize,
     pub(super) roles: Vec<Role>,
     /// What for and which texture.
-    pub(super) textures_used: Vec<(&'static str, usize)>,
+    pub(super) textures_used: Vec<(String, usize)>,
     #[serde(flatten)]
     pub(super) material: &'a Material,
 }
@@ -216,7 +216,7 @@ fn materials(scene: &Scene) -> Vec<MaterialSummary<'_>> {
         .map(|(index, material)| MaterialSummary {
             index,
             roles: roles(index),
-            textures_used: texture_uses(material).into_iter().map(|(what, texture, _)| (what, texture)).collect(),
+            textures_used: material.textures().into_iter().map(|(what, texture, _)| (what, texture)).collect(),
             material,
         })
         .collect()

@@ -131,7 +131,7 @@ fn materials(summary: &Summary<'_>) -> Table {
             },
             if material.double_sided { "2" } else { "1" }.into(),
             material.outline.as_ref().map(outline).unwrap_or_default(),
-            entry.textures_used.iter().map(|(what, _)| *what).collect::<Vec<_>>().join(", "),
+            entry.textures_used.iter().map(|(what, _)| what.as_str()).collect::<Vec<_>>().join(", "),
         ]);
     }
     table

@@ -1,0 +1,211 @@
+//! A material for the GPU: which sections are on, their bytes, their textures, and the recipes of its shaders.
+
+use super::layout::Block;
+use super::shaders::{Bound, Places, Recipe, Shaders};
+use crate::material::{About, AlphaMode, Kind, Leaf, Options, Read, Surroundings, TextureRef, UvTransform, Walk};
+use crate::{Error, Result};
+
+/// Textures that WebGPU promises to one shader stage; 2 are read of the picture and 3 of the character at most.
+const MAX_TEXTURES: usize = 16 - 5;
+
+/// A texture that a material binds.
+#[derive(Clone, Debug)]
+pub(crate) struct Slot {
+    /// Section and field: `gem_inclusions`.
+    pub name: String,
+    pub read: Read,
+    pub source: Source,
+}
+
+/// Where a [`Slot`] has its texels from.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Source {
+    Texture(TextureRef),
+    FaceMap(usize),
+}
+
+/// One section of a material that is on.
+#[derive(Clone, Debug)]
+struct Component {
+    about: &'static About,
+    /// Stages in which it takes part.
+    hooks: Vec<&'static str>,
+    options: Options,
+    slots: Vec<Slot>,
+}
+
+/// What the shaders of a material are made of.
+#[derive(Clone, Debug)]
+pub(crate) struct Composition {
+    components: Vec<Component>,
+    pub alpha: AlphaMode,
+    /// Whether expressions move its textures.
+    driven_uvs: bool,
+}
+
+impl Composition {
+    /// Of a material whose numbers are within their ranges.
+    pub fn new(shaders: &Shaders, of: &Surroundings<'_>) -> Self {
+        let mut material = of.material.clone();
+        let has_light = !material.burns() && material.sections().any(|s| s.about().is_model && !s.about().unlit);
+        let mut components = Vec::new();
+        for section in material.sections_mut() {
+            let about = section.about();
+            if !section.is_on(of) || !(has_light || about.unlit) {
+                continue;
+            }
+            let mut options = Options::default();
+            section.options(&mut options, of);
+            let mut slots = Vec::new();
+            section.walk_fields(&mut Walk::new(&mut |path, field, leaf| {
+                let source = match leaf {
+                    Leaf::Texture(texture) => Source::Texture(*texture),
+                    Leaf::FaceMap(map) => Source::FaceMap(*map),
+                    _ => return,
+                };
+                if let (Kind::Texture(read), Some(last)) = (field.kind, path.last()) {
+                    slots.push(Slot { name: format!("{}_{last}", about.key), read, source });
+                }
+            }));
+            components.push(Component { about, hooks: shaders.hooks(about).to_vec(), options, slots });
+        }
+        Self { components, alpha: material.alpha.mode, driven_uvs: of.driven.uvs }
+    }
+
+    /// Whether this section is on.
+    pub fn has(&self, key: &str) -> bool {
+        self.components.iter().any(|c| c.about.key == key)
+    }
+
+    /// Whether an option or a texture of a section is on.
+    pub fn is_on(&self, option: &str) -> bool {
+        self.components.iter().any(|c| c.options.has(option) || c.slots.iter().any(|s| s.name == option))
+    }
+
+    /// Whether a section asks for this part of the varying or of the frame.
+    pub fn needs(&self, what: &str) -> bool {
+        self.components.iter().any(|c| c.about.needs.contains(&what))
+    }
+
+    /// Textures that it binds.
+    pub fn slots(&self) -> impl Iterator<Item = &Slot> {
+        self.components.iter().flat_map(|c| &c.slots)
+    }
+
+    /// The recipe of a pass that keeps some of its sections.
+    pub fn recipe(&self, pass: &'static str, vertex_colors: bool, keep: impl Fn(&About) -> bool) -> Recipe {
+        self.mixed(pass, vertex_colors, |c| keep(c.about))
+    }
+
+    fn mixed(&self, pass: &'static str, vertex_colors: bool, keep: impl Fn(&Component) -> bool) -> Recipe {
+        let kept: Vec<&Component> = self.components.iter().filter(|c| keep(c)).collect();
+        let mut options = Options::default();
+        for component in &kept {
+            component.options.iter().for_each(|name| options.set(name, true));
+            component.about.needs.iter().for_each(|name| options.set(*name, true));
+            component.slots.iter().for_each(|slot| options.set(slot.name.as_str(), true));
+        }
+        let slots = || kept.iter().flat_map(|c| &c.slots);
+        let moved = |slot: &Slot| match slot.source {
+            Source::Texture(t) => slot.read.by_uv && (t.uv_set != 0 || t.transform != UvTransform::default()),
+            Source::FaceMap(_) => false,
+        };
+        let is_lit = kept.iter().any(|c| c.about.is_model && !c.about.unlit);
+        // What only a pass of its own reads brings nothing to a surface.
+        let is_surface = kept.iter().any(|c| !c.hooks.is_empty());
+        options.set("lit", is_lit);
+        options.set("normal", is_lit);
+        options.set("world", is_lit);
+        options.set("uv", is_surface);
+        options.set("vertex_color", is_surface && vertex_colors);
+        options.set("uv_transforms", self.driven_uvs || slots().any(moved));
+        Recipe {
+            pass,
+            sections: kept.iter().map(|c| c.about).collect(),
+            options,
+            textures: slots()
+                .map(|s| Bound { name: s.name.clone(), is_array: matches!(s.source, Source::FaceMap(_)) })
+                .collect(),
+        }
+    }
+
+    /// The recipe of a pass that draws depth alone: what decides which pixels are there, and nothing where all of them are,
+    /// so that one pipeline serves all such materials. `fades`: a surface that fades counts where it covers half.
+    pub fn cut(&self, pass: &'static str, vertex_colors: bool, fades: bool) -> Recipe {
+        let in_part = |c: &Component| fades || c.about.key != "dither_fade";
+        let cuts = |c: &Component| c.about.key != "base" && c.hooks.contains(&"gone") && in_part(c);
+        let is_cut = self.alpha != AlphaMode::Opaque || self.components.iter().any(cuts);
+        let keep = |c: &Component| c.hooks.iter().any(|h| ["gone", "uv"].contains(h)) && in_part(c);
+        self.mixed(pass, vertex_colors, |c| is_cut && keep(c)).with("cut", is_cut)
+    }
+
+    /// Refuses what a device with WebGPU's default limits cannot bind.
+    pub fn check(&self, name: &str) -> Result<()> {
+        let count = self.slots().count();
+        if count <= MAX_TEXTURES {
+            return Ok(());
+        }
+        let sections: Vec<String> = self
+            .components
+            .iter()
+            .filter(|c| !c.slots.is_empty())
+            .map(|c| format!("{} ({})", c.about.key, c.slots.len()))
+            .collect();
+        let message = format!(
+            "binds {count} textures, more than the {MAX_TEXTURES} that every device has room for; please leave some of these \
+             sections out: {}",
+            sections.join(", ")
+        );
+        Err(Error::Argument { what: format!("material {name:?}"), message })
+    }
+}
+
+/// Bytes of all numbers of a material.
+///
+/// # Errors
+/// [`Error::Input`] where a section of an application and its WGSL do not agree.
+pub(crate) fn bytes(places: &Places, of: &Surroundings<'_>) -> Result<Vec<u8>> {
+    let mut bytes = vec![0; places.size];
+    let mut material = of.material.clone();
+    for section in material.sections_mut() {
+        let about = section.about();
+        let mut transforms = Vec::new();
+        section.walk_fields(&mut Walk::new(&mut |path, _, leaf| {
+            if let (Leaf::Texture(texture), Some(last)) = (leaf, path.last()) {
+                transforms.push((format!("{last}_uv"), rows(texture)));
+            }
+        }));
+        let Some((offset, layout)) = places.of(about.key) else { continue };
+        let mut block = Block::new(layout, &mut bytes[offset..offset + layout.size]);
+        for (member, rows) in transforms {
+            if layout.has(&member) {
+                block.put(&member, rows);
+            }
+        }
+        section.put(&mut block, of);
+        if let Some(fault) = block.faults().into_iter().find(|f| !is_missing_transform(f)) {
+            return Err(Error::Input {
+                path: format!("{}.wgsl", about.key),
+                pointer: format!("struct {}", about.name),
+                message: fault,
+            });
+        }
+    }
+    Ok(bytes)
+}
+
+/// Transforms of textures that a material lacks stay unwritten.
+fn is_missing_transform(fault: &str) -> bool {
+    fault.starts_with("nobody writes") && fault.ends_with("_uv")
+}
+
+/// Rows of the transform of a texture (`KHR_texture_transform`: translation * rotation * scale, v downwards); the last number
+/// of the first one is its UV set.
+fn rows(texture: &TextureRef) -> [[f32; 4]; 2] {
+    let UvTransform { offset, rotation_rad, scale } = texture.transform;
+    let (sin, cos) = rotation_rad.sin_cos();
+    [
+        [cos * scale[0], sin * scale[1], offset[0], texture.uv_set as f32],
+        [-sin * scale[0], cos * scale[1], offset[1], 0.0],
+    ]
+}

@@ -1,0 +1,219 @@
+//! Pipelines: one maker for every pass, keyed by what the shader is linked from and by fixed state, on all cores.
+
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use rayon::prelude::*;
+
+use super::shaders::{Binding, BindingKind, Linked, Recipe, Shaders};
+use crate::{Gpu, Result};
+
+/// Fixed state of a pipeline.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct State {
+    pub cull: Option<wgpu::Face>,
+    pub depth: Option<wgpu::DepthStencilState>,
+    pub samples: u32,
+    pub target: Option<wgpu::ColorTargetState>,
+}
+
+/// What a draw asks for.
+#[derive(Clone, Debug)]
+pub(crate) struct Request {
+    pub recipe: Recipe,
+    pub state: State,
+}
+
+/// A pipeline, and what it binds of its material.
+#[derive(Clone, Debug)]
+pub(crate) struct Variant {
+    pub pipeline: wgpu::RenderPipeline,
+    /// `None` where it binds nothing.
+    pub bound: Option<Arc<BoundLayout>>,
+}
+
+/// What a pass draws with: a pipeline, and the group of its material in [`GpuScene::groups`](super::upload::GpuScene).
+#[derive(Clone, Debug)]
+pub(crate) struct Drawn {
+    pub pipeline: wgpu::RenderPipeline,
+    pub group: Option<usize>,
+}
+
+/// Layout of group 2 for shaders that bind the same.
+#[derive(Debug)]
+pub(crate) struct BoundLayout {
+    pub bindings: Vec<Binding>,
+    pub group: wgpu::BindGroupLayout,
+    pipeline: wgpu::PipelineLayout,
+}
+
+/// Makes pipelines and keeps them.
+#[derive(Debug)]
+pub(crate) struct Variants {
+    pub gpu: Gpu,
+    pub shaders: Shaders,
+    frame: wgpu::BindGroupLayout,
+    character: wgpu::BindGroupLayout,
+    /// Of shaders that bind nothing of a material.
+    bare: wgpu::PipelineLayout,
+    layouts: Mutex<HashMap<Vec<Binding>, Arc<BoundLayout>>>,
+    /// By the linked text: recipes that give the same share all.
+    made: Mutex<HashMap<(String, State), Variant>>,
+}
+
+impl Variants {
+    pub fn new(gpu: &Gpu, shaders: Shaders, frame: wgpu::BindGroupLayout, character: wgpu::BindGroupLayout) -> Self {
+        let bare = pipeline_layout(gpu, &[Some(&frame), Some(&character)]);
+        let (layouts, made) = Default::default();
+        Self { gpu: gpu.clone(), shaders, frame, character, bare, layouts, made }
+    }
+
+    /// The pipeline of a request, made on first use.
+    ///
+    /// # Errors
+    /// A section's WGSL does not link; the driver refuses it.
+    pub fn get(&self, request: &Request) -> Result<Variant> {
+        let linked = self.shaders.linked(&request.recipe)?;
+        let key = (linked.text.clone(), request.state.clone());
+        if let Some(found) = lock(&self.made).get(&key) {
+            return Ok(found.clone());
+        }
+        let made = self.make(request, &linked)?;
+        lock(&self.made).insert(key, made.clone());
+        Ok(made)
+    }
+
+    /// Pipelines of many requests, on all cores. Those that differ in nothing are one.
+    ///
+    /// # Errors
+    /// Those of [`Variants::get`].
+    pub fn get_all<'a>(&self, requests: impl IntoIterator<Item = &'a Request>) -> Result<()> {
+        let requests: Vec<&Request> = requests.into_iter().collect();
+        let linked: Vec<Arc<Linked>> =
+            requests.par_iter().map(|r| self.shaders.linked(&r.recipe)).collect::<Result<_>>()?;
+        let mut wanted = HashMap::new();
+        for (request, linked) in requests.into_iter().zip(&linked) {
+            wanted.insert((&linked.text, &request.state), (request, linked));
+        }
+        wanted.retain(|(text, state), _| !lock(&self.made).contains_key(&((*text).clone(), (*state).clone())));
+        let wanted: Vec<_> = wanted.into_iter().collect();
+        wanted.into_par_iter().try_for_each(|((text, state), (request, linked))| {
+            let made = self.make(request, linked)?;
+            lock(&self.made).insert((text.clone(), state.clone()), made);
+            Ok(())
+        })
+    }
+
+    fn make(&self, request: &Request, linked: &Linked) -> Result<Variant> {
+        let Request { recipe, state } = request;
+        // Error scopes belong to threads.
+        self.gpu.scoped(|| {
+            let module = self.module(recipe.pass, linked);
+            let bound = (!linked.bindings.is_empty()).then(|| self.layout(&linked.bindings));
+            let pipeline = self.gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+                label: Some(recipe.pass),
+                layout: Some(bound.as_ref().map_or(&self.bare, |b| &b.pipeline)),
+                vertex: wgpu::VertexState {
+                    module: &module,
+                    entry_point: Some("vs_main"),
+                    compilation_options: wgpu::PipelineCompilationOptions::default(),
+                    buffers: &vertex_buffers(),
+                },
+                primitive: wgpu::PrimitiveState { cull_mode: state.cull, ..Default::default() },
+                depth_stencil: state.depth.clone(),
+                multisample: wgpu::MultisampleState { count: state.samples, ..Default::default() },
+                fragment: linked.has_fragment.then_some(wgpu::FragmentState {
+                    module: &module,
+                    entry_point: Some("fs_main"),
+                    compilation_options: wgpu::PipelineCompilationOptions::default(),
+                    targets: state.target.clone().map(Some).as_slice(),
+                }),
+                multiview_mask: None,
+                cache: None,
+            });
+            Variant { pipeline, bound }
+        })
+    }
+
+    /// Shader module of a pass that draws no material.
+    ///
+    /// # Errors
+    /// Its WGSL does not link.
+    pub fn plain_module(&self, recipe: &Recipe) -> Result<wgpu::ShaderModule> {
+        Ok(self.module(recipe.pass, &*self.shaders.linked(recipe)?))
+    }
+
+    fn module(&self, label: &str, linked: &Linked) -> wgpu::ShaderModule {
+        self.gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some(label),
+            source: wgpu::ShaderSource::Wgsl(linked.text.as_str().into()),
+        })
+    }
+
+    fn layout(&self, bindings: &[Binding]) -> Arc<BoundLayout> {
+        let mut layouts = lock(&self.layouts);
+        if let Some(found) = layouts.get(bindings) {
+            return Arc::clone(found);
+        }
+        let entries: Vec<_> = bindings.iter().map(layout_entry).collect();
+        let group = self
+            .gpu
+            .device
+            .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("material"), entries: &entries });
+        let pipeline = pipeline_layout(&self.gpu, &[Some(&self.frame), Some(&self.character), Some(&group)]);
+        let layout = Arc::new(BoundLayout { bindings: bindings.to_vec(), group, pipeline });
+        layouts.insert(bindings.to_vec(), Arc::clone(&layout));
+        layout
+    }
+}
+
+/// A map that a panic elsewhere has not made worse.
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+fn pipeline_layout(gpu: &Gpu, groups: &[Option<&wgpu::BindGroupLayout>]) -> wgpu::PipelineLayout {
+    gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some("surface"),
+        bind_group_layouts: groups,
+        immediate_size: 0,
+    })
+}
+
+fn layout_entry(binding: &Binding) -> wgpu::BindGroupLayoutEntry {
+    let texture = |view_dimension| wgpu::BindingType::Texture {
+        sample_type: wgpu::TextureSampleType::Float { filterable: true },
+        view_dimension,
+        multisampled: false,
+    };
+    wgpu::BindGroupLayoutEntry {
+        binding: binding.index,
+        visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
+        ty: match binding.kind {
+            BindingKind::Numbers => wgpu::BindingType::Buffer {
+                ty: wgpu::BufferBindingType::Uniform,
+                has_dynamic_offset: false,
+                min_binding_size: None,
+            },
+            BindingKind::Texture => texture(wgpu::TextureViewDimension::D2),
+            BindingKind::TextureArray => texture(wgpu::TextureViewDimension::D2Array),
+            BindingKind::Sampler => wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering),
+        },
+        count: None,
+    }
+}
+
+/// Vertex streams, as `wgsl/bind/vertex.wgsl` reads them.
+fn vertex_buffers() -> [Option<wgpu::VertexBufferLayout<'static>>; 3] {
+    const DEFORMED: &[wgpu::VertexAttribute] = &wgpu::vertex_attr_array![0 => Float32x3, 1 => Uint32x3];
+    const STATIC: &[wgpu::VertexAttribute] = &wgpu::vertex_attr_array![2 => Float32x4, 3 => Unorm8x4, 4 => Uint32];
+    const INSTANCE: &[wgpu::VertexAttribute] =
+        &wgpu::vertex_attr_array![5 => Float32x4, 6 => Float32x4, 7 => Float32x4];
+    let layout =
+        |array_stride, step_mode, attributes| Some(wgpu::VertexBufferLayout { array_stride, step_mode, attributes });
+    [
+        layout(24, wgpu::VertexStepMode::Vertex, DEFORMED),
+        layout(24, wgpu::VertexStepMode::Vertex, STATIC),
+        layout(48, wgpu::VertexStepMode::Instance, INSTANCE),
+    ]
+}

@@ -1,0 +1,82 @@
+//! Vertices and what deforms them, as the shaders' buffers hold them. `tests/pure/layout.rs` compares the structs with those
+//! of `wgsl/pass/deform.wgsl`.
+
+use bytemuck::{Pod, Zeroable};
+use glam::{Mat4, Vec3};
+
+/// `DeformVertex` of `wgsl/pass/deform.wgsl`, and the first vertex stream of every draw.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+pub struct DeformVertex {
+    pub position: [f32; 3],
+    pub normal: u32,
+    pub tangent: u32,
+    pub outline_normal: u32,
+}
+
+/// `DeformGroup` of `wgsl/pass/deform.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+pub struct DeformGroup {
+    pub first_vertex: u32,
+    pub first_influence: u32,
+    pub influences_per_vertex: u32,
+    pub first_joint: u32,
+    pub first_weight: u32,
+}
+
+/// `MorphEntry` of `wgsl/pass/deform.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+pub struct MorphEntry {
+    pub target_index: u32,
+    pub position: [f32; 3],
+    pub normal: [f32; 3],
+}
+
+/// Rows of an affine matrix: `Joint` of `wgsl/pass/deform.wgsl`, and the instance stream of every draw.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct AffineRows {
+    pub row_x: [f32; 4],
+    pub row_y: [f32; 4],
+    pub row_z: [f32; 4],
+}
+
+impl From<Mat4> for AffineRows {
+    fn from(m: Mat4) -> Self {
+        Self { row_x: m.row(0).to_array(), row_y: m.row(1).to_array(), row_z: m.row(2).to_array() }
+    }
+}
+
+/// Second vertex stream of every draw: what does not move.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+pub struct StaticVertex {
+    pub uv: [f32; 4],
+    pub color: [u8; 4],
+    pub part: u32,
+}
+
+/// Octahedral snorm16 pair of a unit vector; the CPU side of `wgsl/lib/normal.wgsl`.
+pub fn pack_unit(v: [f32; 3]) -> u32 {
+    let n = Vec3::from(v).normalize_or(Vec3::Z);
+    let p = n / (n.x.abs() + n.y.abs() + n.z.abs());
+    let sign = |x: f32| if x >= 0.0 { 1.0 } else { -1.0 };
+    let (x, y) = if p.z < 0.0 {
+        ((1.0 - p.y.abs()) * sign(p.x), (1.0 - p.x.abs()) * sign(p.y))
+    } else {
+        (p.x, p.y)
+    };
+    let quantize = |x: f32| u32::from((x.clamp(-1.0, 1.0) * 32767.0).round() as i16 as u16);
+    quantize(x) | quantize(y) << 16
+}
+
+/// Inverse of [`pack_unit`].
+pub(crate) fn unpack_unit(packed: u32) -> Vec3 {
+    let [x, y] = [packed as u16, (packed >> 16) as u16].map(|c| f32::from(c as i16) / 32767.0);
+    let z = 1.0 - x.abs() - y.abs();
+    let t = (-z).max(0.0);
+    let towards = |c: f32| if c >= 0.0 { c - t } else { c + t };
+    Vec3::new(towards(x), towards(y), z).normalize_or(Vec3::Z)
+}

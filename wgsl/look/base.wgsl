@@ -1,0 +1,46 @@
+// Lit colour and alpha.
+import package::bind::surface::Surface;
+import package::bind::uv::{UvTransform, texture_uv};
+import package::bind::varying::Varying;
+import package::material::{base_texture, base_texture_sampler, material, stage_uv};
+
+struct Base {
+    color: vec4f,
+    // Alpha below which the surface is cut.
+    alpha_cutoff: f32,
+    texture_uv: UvTransform,
+}
+
+// What base colour and alpha are multiplied with.
+fn base_texel(in: Varying, uv: vec4f) -> vec4f {
+    var texel = vec4f(1.0);
+    @if(base_texture) texel = textureSample(
+        base_texture, base_texture_sampler, texture_uv(uv, material.base.texture_uv)
+    );
+    @if(vertex_color) texel *= in.color;
+    return texel;
+}
+
+fn base_surface(surface: Surface) -> Surface {
+    var s = surface;
+    s.texel = base_texel(s.at, s.uv);
+    let base = material.base.color * s.texel;
+    s.lit = base.rgb;
+    s.alpha = base.a;
+    @if(alpha_coverage) {
+        // The cut as a ramp one pixel wide, but never so wide that alpha 1 is not whole or alpha 0 not open. 1e-4: where
+        // alpha is flat there is no ramp.
+        let cutoff = material.base.alpha_cutoff;
+        let widest = 2.0 * min(cutoff, 1.0 - cutoff);
+        s.alpha = saturate((s.alpha - cutoff) / max(min(fwidth(s.alpha), widest), 1e-4) + 0.5);
+    }
+    @if(alpha_mask && !alpha_coverage) if s.alpha < material.base.alpha_cutoff {
+        discard;
+    }
+    return s;
+}
+
+// Whether it is cut out.
+fn base_gone(in: Varying) -> bool {
+    return material.base.color.a * base_texel(in, stage_uv(in.uv)).a < material.base.alpha_cutoff;
+}

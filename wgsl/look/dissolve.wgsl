@@ -1,0 +1,47 @@
+// Surfaces that burn away.
+import package::bind::shown::shown;
+import package::bind::surface::Surface;
+import package::bind::varying::Varying;
+import package::lib::dissolve::{dissolve_place, dissolve_time};
+import package::material::material;
+
+struct Dissolve {
+    color: vec3f,
+    amount: f32,
+    cells: vec2i,
+    border: f32,
+}
+
+// Place of a point between what is gone (below 0), the glowing border (0..1) and what is whole.
+fn burning(uv: vec2f) -> f32 {
+    let m = &material.dissolve;
+    return dissolve_place(dissolve_time(uv, m.cells), m.amount, m.border);
+}
+
+fn dissolve_vanish(in: Varying) {
+    // Through holes in a line the hull of the far side would be seen.
+    @if(line) if material.dissolve.amount > 0.1 {
+        discard;
+    }
+    if burning(in.uv.xy) < 0.0 {
+        discard;
+    }
+}
+
+fn dissolve_gone(in: Varying) -> bool {
+    return burning(in.uv.xy) < 0.0;
+}
+
+fn dissolve_surface(surface: Surface) -> Surface {
+    var s = surface;
+    let burn = burning(s.at.uv.xy);
+    s.emission += material.dissolve.color * (1.0 - saturate(burn));
+    @if(channel_emission) shown = s.emission;
+    @if(channel_dissolve) shown = vec3f(saturate(burn), 1.0, 0.0);
+    return s;
+}
+
+// Lines grow thin.
+fn dissolve_line(width: f32) -> f32 {
+    return width * (1.0 - saturate(material.dissolve.amount * 10.0));
+}

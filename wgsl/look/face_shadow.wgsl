@@ -1,0 +1,82 @@
+// The shadow of a face from its threshold maps.
+import package::bind::frame::frame;
+import package::bind::shown::shown;
+import package::bind::surface::{Border, Surface};
+import package::bind::varying::{Varying, in_face_frame};
+import package::bind::vertex::VertexInput;
+import package::lib::face_shadow::{
+    face_back_share, face_light_angle, face_lit, face_masked, face_measure, face_shading, face_side, face_stack_place,
+};
+import package::material::{face_shadow_map, face_shadow_map_sampler, material};
+import package::model::toon::soft_width;
+
+struct FaceShadow {
+    // Heights of the light, radians, for which the maps of the stack are painted, growing.
+    pitches: vec4f,
+    pitch_count: u32,
+    // Angle over pi, and horizontal length of the direction to the light.
+    softness: f32,
+    overhead_fade: f32,
+    // 1: thresholds are measured by the cosine of the angle.
+    cosine: f32,
+}
+
+fn face_shadow_vary(v: VertexInput, given: Varying) -> Varying {
+    var out = given;
+    let light = in_face_frame(v, frame.to_light);
+    let angle = face_light_angle(light, material.face_shadow.overhead_fade);
+    let pitch = asin(clamp(light.y, -1.0, 1.0));
+    out.face_light = vec4f(light.x, pitch, angle, face_measure(angle, material.face_shadow.cosine));
+    return out;
+}
+
+fn face_shadow_shade(s: Surface, border: Border) -> Border {
+    var b = border;
+    let m = &material.face_shadow;
+    let uv = s.at.uv.xy;
+    let light_x = s.at.face_light.x;
+    let angle = s.at.face_light.z;
+    let measure = s.at.face_light.w;
+    var place = vec2f(0.0);
+    @if(face_stack) place = face_stack_place(s.at.face_light.y, m.pitches, m.pitch_count);
+    var map = face_map_at(uv, 0, place);
+    var tau = face_side(map.rg, light_x);
+    var lit = face_lit(tau, measure, m.softness);
+    @if(soft) var soft = face_lit(tau, measure, soft_width());
+    @if(face_back) {
+        let back = face_map_at(uv, i32(m.pitch_count), place);
+        let share = face_back_share(angle);
+        tau = face_side(back.rg, light_x);
+        lit = mix(lit, face_lit(tau, measure, m.softness), share);
+        @if(soft) soft = mix(soft, face_lit(tau, measure, soft_width()), share);
+        map = vec4f(map.rg, mix(map.ba, back.ba, share));
+    }
+    @if(face_masks) {
+        var layer = i32(m.pitch_count);
+        @if(face_back) layer *= 2;
+        let masks = textureSample(face_shadow_map, face_shadow_map_sampler, uv, layer);
+        let side = face_side(masks.rg, light_x);
+        let back = face_side(masks.ba, light_x);
+        lit = face_masked(lit, side, back, angle);
+        @if(soft) soft = face_masked(soft, side, back, angle);
+    }
+    let region = map.b;
+    let strength = map.a * s.directional;
+    b.of_face = 1.0 - region;
+    // The map's region fades over the jaw, under which shade must be whole.
+    b.of_body = saturate(4.0 - 4.0 * b.of_face);
+    b.shading = face_shading(b.shading, lit, region, strength);
+    @if(soft) b.soft = face_shading(b.soft, soft, region, strength);
+    return b;
+}
+
+// The map of the stack for the light's height; its thresholds lie between those of the two nearest ones.
+fn face_map_at(uv: vec2f, first: i32, place: vec2f) -> vec4f {
+    let low = textureSample(face_shadow_map, face_shadow_map_sampler, uv, first + i32(place.x));
+    @if(!face_stack) return low;
+    @if(face_stack) let last = first + i32(material.face_shadow.pitch_count) - 1;
+    @if(face_stack) let high = textureSample(
+        face_shadow_map, face_shadow_map_sampler, uv, min(first + i32(place.x) + 1, last)
+    );
+    @if(face_stack) return mix(low, high, place.y);
+}

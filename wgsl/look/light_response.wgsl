@@ -1,0 +1,17 @@
+// Bounds of the light that is taken.
+import package::bind::surface::Surface;
+import package::lib::light::light_response;
+import package::material::material;
+
+struct LightResponse {
+    // Least and greatest luminance.
+    bounds: vec2f,
+    monochrome: f32,
+}
+
+fn light_response_lamps(surface: Surface) -> Surface {
+    var s = surface;
+    let m = &material.light_response;
+    s.light = light_response(s.light, m.bounds.x, m.bounds.y, m.monochrome);
+    return s;
+}

@@ -1,0 +1,65 @@
+// Two tones with a border between them (MToon), or a painted ramp.
+import package::bind::frame::frame;
+import package::bind::lights::ambient;
+import package::bind::shown::shown;
+import package::bind::surface::{Border, Shaded, Surface, shaded_of};
+import package::bind::uv::texture_uv;
+import package::lib::mtoon::{mtoon_direct, mtoon_gi, mtoon_shading};
+import package::look::shade_ramp::ramp_color;
+import package::material::{material, stage_shade, toon_shift_texture, toon_shift_texture_sampler};
+
+// Reach of the soft border: of the ramp, or of the transition.
+fn soft_width() -> f32 {
+    var width = 0.0;
+    @if(transition) width = material.transition.width;
+    @if(shade_ramp) width = material.shade_ramp.width;
+    return width;
+}
+
+// Where light ends: on the normals, and then as looks have it.
+fn toon_border(s: Surface) -> Border {
+    var b: Border;
+    b.lit = s.lit;
+    b.shade = s.shade;
+    b.of_face = 1.0;
+    b.of_body = 1.0;
+    b.own_lit = 1.0;
+    b.tint = vec3f(1.0);
+    b.bangs = vec3f(1.0);
+    var shift = material.toon.shift;
+    @if(toon_shift_texture) shift += material.toon.shift_texture_scale * textureSample(
+        toon_shift_texture, toon_shift_texture_sampler, texture_uv(s.uv, material.toon.shift_texture_uv)
+    ).r;
+    b.shading = mtoon_shading(s.n_dot_l, shift, material.toon.toony);
+    b.soft = 1.0;
+    @if(soft) b.soft = smoothstep(-soft_width(), soft_width(), s.n_dot_l + shift);
+    b = stage_shade(s, b);
+    @if(channel_face_shadow && face_shadow) shown = vec3f(b.shading);
+    @if(channel_face_shadow && !face_shadow) shown = vec3f(b.shading) * 0.25;
+    return b;
+}
+
+// Light on a toon surface, for whatever its colour becomes.
+fn toon_light(s: Surface, b: Border) -> Shaded {
+    var l = shaded_of(s);
+    l.lit = b.lit;
+    l.shading = b.shading;
+    l.own_lit = b.own_lit;
+    l.gi = mtoon_gi(ambient(s.normal.y), frame.ambient_sky, frame.ambient_ground, material.toon.gi_equalization);
+    return l;
+}
+
+fn toon_model(s: Surface) -> Shaded {
+    let b = toon_border(s);
+    var l = toon_light(s, b);
+    l.ambient = l.gi * b.lit;
+    @if(shade_ramp) {
+        var ramped = ramp_color(s.uv, b.lit, b.shade, b.soft);
+        // By its share and not along the ramp, whose terminator is much narrower than the shadow's soft edge.
+        @if(bangs_shadow) ramped = mix(ramped, ramp_color(s.uv, b.lit, b.shade, 0.0), b.received);
+        l.direct = ramped * l.light;
+        @if(channel_shade_ramp) shown = vec3f(b.soft * (1.0 - b.received));
+    }
+    @if(!shade_ramp) l.direct = mtoon_direct(b.lit * b.tint, b.shade, b.shading, l.light) * b.bangs;
+    return l;
+}

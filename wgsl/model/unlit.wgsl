@@ -1,0 +1,10 @@
+// The base colour, whatever the light.
+import package::bind::shown::shown;
+import package::bind::surface::{Shaded, Surface, shaded_of};
+
+fn unlit_model(s: Surface) -> Shaded {
+    var l = shaded_of(s);
+    l.direct = s.lit;
+    @if(channel) shown = s.lit + s.emission;
+    return l;
+}
