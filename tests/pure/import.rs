@@ -1,14 +1,12 @@
 //! What no shared model covers, as small files made here; each test checks the loaded values.
 
-#[path = "support/gltf.rs"]
-mod gltf;
-
 use glam::{Quat, Vec3};
-use gltf::{F32, Glb, I8, I16, U8, U16, U32, floats, picture, shorts, words};
 use hikage::Error;
 use hikage::material::{AlphaMode, Origin, OutlineWidth, Shading, Toon};
 use hikage::scene::{AnimationValues, ColliderShape, ConstraintKind, HumanBone, Primitive, Role, Scene};
 use serde_json::json;
+
+use crate::gltf::{F32, Glb, I8, I16, U8, U16, U32, floats, picture, shorts, words};
 
 fn first(scene: &Scene) -> &Primitive {
     &scene.meshes[0].primitives[0]

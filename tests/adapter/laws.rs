@@ -11,9 +11,7 @@ use hikage::{
     },
 };
 
-#[path = "support/scene.rs"]
-mod support;
-use support::{cube, gpu, pixel, render, render_with, scene, sphere, square, texture, two_tone, view};
+use crate::support::{cube, gpu, pixel, render, render_with, scene, sphere, square, texture, two_tone, view};
 
 fn srgb(linear: [f32; 3]) -> [u8; 3] {
     LinearRgb(linear).to_srgb().0

@@ -5,9 +5,7 @@ use hikage::motion::Pose;
 use hikage::scene::{Framing, HumanBone, Image, Scene};
 use hikage::{Background, Gpu, GpuScene, Renderer, View, color::Srgb};
 
-#[path = "support/scene.rs"]
-mod support;
-use support::gpu;
+use crate::support::{self, gpu};
 
 /// Pictures are drawn this much finer and averaged, so that what moves by less than a pixel changes by as much.
 const FINER: u32 = 3;

@@ -5,9 +5,7 @@ use hikage::color::LinearRgb;
 use hikage::scene::{Ambient, Bangs, Framing, Image, Role, Scene};
 use hikage::{Channel, Renderer, View};
 
-#[path = "support/scene.rs"]
-mod support;
-use support::{anime_heroine, gpu, render};
+use crate::support::{self, anime_heroine, gpu, render};
 
 /// Her face, lit from above and a little from the left.
 fn face(scene: &Scene, side: u32) -> View {

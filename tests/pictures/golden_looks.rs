@@ -10,9 +10,7 @@ use hikage::material::{
 use hikage::scene::{Ambient, Bloom, Image, Post, PunctualLight, Scene, ToneCurve};
 use hikage::{Background, Gpu, Renderer, View};
 
-#[path = "support/scene.rs"]
-mod support;
-use support::{cube, gpu, scene, sphere, square, texture, two_tone, view};
+use crate::support::{cube, gpu, render, scene, sphere, square, texture, two_tone, view};
 
 /// Another driver may round edges and ramps differently, never more.
 const TOLERANCE: Tolerance = Tolerance { channel: 6, outliers: 0.006, blob: 16, drift: 1.0 };
@@ -278,11 +276,11 @@ fn vanishing() {
     let burnt = beside(&[0.0f32, 0.25, 0.5, 0.75, 0.95].map(|amount| {
         let dissolve = Some(Dissolve { amount, cell_m: 0.2, ..Dissolve::default() });
         let outline = Some(Outline { width: OutlineWidth::World { metres: 0.015 }, ..Outline::default() });
-        averaged(&support::render(&gpu, &ball(Material { dissolve, outline, ..two_tone() }), &panel_view()))
+        averaged(&render(&gpu, &ball(Material { dissolve, outline, ..two_tone() }), &panel_view()))
     }));
     let faded = beside(&[1.0f32, 0.8, 0.5, 0.3, 0.1].map(|opacity| {
         let dither_fade = Some(DitherFade { opacity, ..DitherFade::default() });
-        averaged(&support::render(&gpu, &ball(Material { dither_fade, ..two_tone() }), &panel_view()))
+        averaged(&render(&gpu, &ball(Material { dither_fade, ..two_tone() }), &panel_view()))
     }));
     check("vanishing", &[burnt, faded]);
 }

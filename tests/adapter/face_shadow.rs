@@ -10,9 +10,7 @@ use hikage::scene::{Ambient, Framing, HumanBone, Image, Role, Scene};
 use hikage::sdf::FaceMap;
 use hikage::{Gpu, Look, Renderer, View};
 
-#[path = "support/scene.rs"]
-mod support;
-use support::gpu;
+use crate::support::{self, gpu};
 
 fn heroine() -> Scene {
     let mut scene = support::anime_heroine();
