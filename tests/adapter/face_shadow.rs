@@ -23,10 +23,11 @@ fn heroine() -> Scene {
 }
 
 fn draw(gpu: &Gpu, scene: &Scene, pose: &Pose, view: &View) -> Image {
-    let mut renderer = Renderer::new(gpu).expect("a renderer");
-    let mut uploaded = renderer.upload(scene).expect("an upload");
-    uploaded.set_pose(gpu, scene, pose);
-    renderer.render(&mut uploaded, view).expect("a picture")
+    support::with_renderer(gpu, |renderer| {
+        let mut uploaded = renderer.upload(scene).expect("an upload");
+        uploaded.set_pose(gpu, scene, pose);
+        renderer.render(&mut uploaded, view).expect("a picture")
+    })
 }
 
 /// Light from an angle to the character's left, level.

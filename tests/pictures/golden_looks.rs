@@ -8,9 +8,9 @@ use hikage::material::{
     InnerLines, Material, Outline, OutlineWidth, Shading, ShapedHighlight, Sparkle, Stocking, TextureRef, Toon,
 };
 use hikage::scene::{Ambient, Bloom, Image, Post, PunctualLight, Scene, ToneCurve};
-use hikage::{Background, Gpu, Renderer, View};
+use hikage::{Background, Gpu, View};
 
-use crate::support::{cube, gpu, render, scene, sphere, square, texture, two_tone, view};
+use crate::support::{cube, gpu, render, scene, sphere, square, texture, two_tone, view, with_renderer};
 
 /// Another driver may round edges and ramps differently, never more.
 const TOLERANCE: Tolerance = Tolerance { channel: 6, outliers: 0.006, blob: 16, drift: 1.0 };
@@ -62,20 +62,21 @@ fn panel_view() -> View {
 
 /// A scene under light that comes round it; each picture by what `change` makes of its view.
 fn sweep(gpu: &Gpu, scene: &Scene, change: impl Fn(&mut View, usize)) -> Image {
-    let mut renderer = Renderer::new(gpu).expect("a renderer");
-    let mut uploaded = renderer.upload(scene).expect("an upload");
-    let pictures: Vec<Image> = [-60.0f32, -20.0, 30.0, 75.0, 115.0]
-        .into_iter()
-        .enumerate()
-        .map(|(i, degrees)| {
-            let (sin, cos) = degrees.to_radians().sin_cos();
-            let mut view = panel_view();
-            view.lights.directional.to_light = Vec3::new(sin, 0.45, cos).normalize();
-            change(&mut view, i);
-            averaged(&renderer.render(&mut uploaded, &view).expect("a picture"))
-        })
-        .collect();
-    beside(&pictures)
+    with_renderer(gpu, |renderer| {
+        let mut uploaded = renderer.upload(scene).expect("an upload");
+        let pictures: Vec<Image> = [-60.0f32, -20.0, 30.0, 75.0, 115.0]
+            .into_iter()
+            .enumerate()
+            .map(|(i, degrees)| {
+                let (sin, cos) = degrees.to_radians().sin_cos();
+                let mut view = panel_view();
+                view.lights.directional.to_light = Vec3::new(sin, 0.45, cos).normalize();
+                change(&mut view, i);
+                averaged(&renderer.render(&mut uploaded, &view).expect("a picture"))
+            })
+            .collect();
+        beside(&pictures)
+    })
 }
 
 fn ball(material: Material) -> Scene {
