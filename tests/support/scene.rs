@@ -17,7 +17,7 @@ use hikage::{
 static DEVICES: Mutex<Vec<Gpu>> = Mutex::new(Vec::new());
 static RENDERERS: Mutex<Vec<(Gpu, Renderer)>> = Mutex::new(Vec::new());
 
-/// A device that no other test uses meanwhile: of two threads that wait for one device, each may take the other's answer.
+/// A device that no other test uses meanwhile: of two threads that wait for one, each may take the other's answer.
 pub struct Lent(Gpu);
 
 impl Deref for Lent {

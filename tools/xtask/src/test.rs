@@ -19,8 +19,8 @@ const SWIFTSHADER: [&str; 3] = [
 /// Test modules of pictures that are accepted by name; all stand in binaries named `pictures`.
 pub(crate) const GOLDENS: [&str; 3] = ["golden::", "golden_looks::", "golden_character::"];
 
-/// Other test modules, all of the binary `adapter`, that say something about a driver. Each part of the look has its pictures
-/// among the goldens of the character.
+/// Other test modules, all of the binary `adapter`, that say something about a driver. Each part of the look has its
+/// pictures among the goldens of the character.
 const ON_SECOND_DRIVER: [&str; 6] =
     ["adapters::", "body_looks::", "depth_rim::", "laws::", "oracles::", "self_shadow::"];
 
