@@ -2,6 +2,7 @@
 
 #![allow(dead_code, reason = "every test file uses its own share")]
 
+use std::ops::Deref;
 use std::sync::Mutex;
 
 use glam::Vec3;
@@ -12,10 +13,38 @@ use hikage::{
     scene::{Ambient, Camera, DirectionalLight, Image, Lights, Mesh, Node, Primitive, Role, Sampler, Scene, Texture},
 };
 
+/// Devices and renderers that wait for a test. Not in a thread's own memory: drivers cannot be closed while that goes.
+static DEVICES: Mutex<Vec<Gpu>> = Mutex::new(Vec::new());
+static RENDERERS: Mutex<Vec<(Gpu, Renderer)>> = Mutex::new(Vec::new());
+
+/// A device that no other test uses meanwhile: of two threads that wait for one, each may take the other's answer.
+pub struct Lent(Gpu);
+
+impl Deref for Lent {
+    type Target = Gpu;
+
+    fn deref(&self) -> &Gpu {
+        &self.0
+    }
+}
+
+impl Drop for Lent {
+    fn drop(&mut self) {
+        // One on which a test has failed serves no other.
+        if !std::thread::panicking() {
+            DEVICES.lock().expect("no test panics while it gives a device back").push(self.0.clone());
+        }
+    }
+}
+
 /// The adapter of the tests. `HIKAGE_ADAPTER` names another than the default.
-pub fn gpu() -> Gpu {
-    let name = std::env::var("HIKAGE_ADAPTER").ok();
-    Gpu::headless(name.as_deref()).unwrap_or_else(|e| panic!("{e}"))
+pub fn gpu() -> Lent {
+    let waiting = DEVICES.lock().expect("no test panics while it takes a device").pop();
+    let open = || {
+        let name = std::env::var("HIKAGE_ADAPTER").ok();
+        Gpu::headless(name.as_deref()).unwrap_or_else(|e| panic!("{e}"))
+    };
+    Lent(waiting.unwrap_or_else(open))
 }
 
 /// The built-in character as her file says.
@@ -169,20 +198,25 @@ pub fn view(size: u32, distance: f32) -> View {
     }
 }
 
-/// Renders a scene with four samples. A test has one renderer, whose pipelines serve all of its scenes.
-pub fn render(gpu: &Gpu, scene: &Scene, view: &View) -> Image {
-    // Not in a thread's own memory: drivers cannot be closed while that goes.
-    static KEPT: Mutex<Vec<(Gpu, Renderer)>> = Mutex::new(Vec::new());
-    let kept = || KEPT.lock().expect("no test panics while it takes a renderer");
+/// Lends a renderer of four samples. A device has one, whose pipelines serve all scenes.
+pub fn with_renderer<T>(gpu: &Gpu, work: impl FnOnce(&mut Renderer) -> T) -> T {
+    let waiting = || RENDERERS.lock().expect("no test panics while it takes a renderer");
     let found = {
-        let mut kept = kept();
-        kept.iter().position(|(of, _)| of.device == gpu.device).map(|i| kept.swap_remove(i))
+        let mut waiting = waiting();
+        waiting.iter().position(|(of, _)| of.device == gpu.device).map(|i| waiting.swap_remove(i))
     };
     let (of, mut renderer) = found.unwrap_or_else(|| (gpu.clone(), Renderer::new(gpu).expect("a renderer")));
-    let mut uploaded = renderer.upload(scene).expect("an upload");
-    let picture = renderer.render(&mut uploaded, view).expect("a picture");
-    kept().push((of, renderer));
-    picture
+    let result = work(&mut renderer);
+    waiting().push((of, renderer));
+    result
+}
+
+/// Renders a scene with four samples.
+pub fn render(gpu: &Gpu, scene: &Scene, view: &View) -> Image {
+    with_renderer(gpu, |renderer| {
+        let mut uploaded = renderer.upload(scene).expect("an upload");
+        renderer.render(&mut uploaded, view).expect("a picture")
+    })
 }
 
 /// Renders a scene into a given output.

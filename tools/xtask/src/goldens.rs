@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use crate::test::{GOLDENS, QUICK_LLVMPIPE};
 use crate::{Outcome, Stop, cargo, driver};
 
 const EXPECTED: &str = "tests/golden/expected";
@@ -31,19 +32,9 @@ fn review(run_tests: bool) -> Outcome {
         let vulkan = driver::ensure()?;
         // What an older run left must not be taken for a finding of this one.
         let _ = std::fs::remove_dir_all(ACTUAL);
-        let golden = [
-            "test",
-            "--quiet",
-            "--workspace",
-            "--test",
-            "golden",
-            "--test",
-            "golden_looks",
-            "--test",
-            "golden_character",
-            "--no-fail-fast",
-        ];
-        tests = cargo::run(&golden, &vulkan);
+        let pictures = ["test", "--quiet", "--workspace", "--test", "pictures", "--no-fail-fast", "--"];
+        let golden = [&pictures[..], &GOLDENS[..]].concat();
+        tests = cargo::run_with(&golden, &vulkan, &QUICK_LLVMPIPE);
     }
     let accepted = names_in(EXPECTED, ".png")?;
     let findings = findings()?;

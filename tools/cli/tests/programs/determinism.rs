@@ -6,9 +6,7 @@ use std::process::Command;
 
 use serde_json::json;
 
-#[path = "../../../tests/support/gltf.rs"]
-mod gltf;
-use gltf::{F32, Glb, U16, floats};
+use crate::gltf::{F32, Glb, U16, floats};
 
 /// A toon ball with outline, rim and texture behind a blended triangle: everything whose order could vary.
 fn model() -> Vec<u8> {

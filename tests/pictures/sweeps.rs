@@ -3,18 +3,16 @@
 use glam::{Quat, Vec3};
 use hikage::motion::Pose;
 use hikage::scene::{Framing, HumanBone, Image, Scene};
-use hikage::{Background, Gpu, GpuScene, Renderer, View, color::Srgb};
+use hikage::{Background, GpuScene, Renderer, View, color::Srgb};
 
-#[path = "support/scene.rs"]
-mod support;
-use support::gpu;
+use crate::support::{self, Lent, gpu};
 
 /// Pictures are drawn this much finer and averaged, so that what moves by less than a pixel changes by as much.
 const FINER: u32 = 3;
 const SIDE: u32 = 96;
 
 struct Sweep {
-    gpu: Gpu,
+    gpu: Lent,
     scene: Scene,
     renderer: Renderer,
     uploaded: GpuScene,

@@ -5,9 +5,7 @@ use hikage::material::{Base, Layer, Material, Shading, TextureRef, Toon};
 use hikage::scene::{Framing, Image, Role, Scene};
 use hikage::{Renderer, View};
 
-#[path = "support/scene.rs"]
-mod support;
-use support::{gpu, pixel, render, scene, square, texture, view};
+use crate::support::{self, gpu, pixel, render, scene, square, texture, view};
 
 const COLORS: [[f32; 3]; 4] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 1.0, 0.0]];
 

@@ -8,11 +8,9 @@ use hikage::material::{
     InnerLines, Material, Outline, OutlineWidth, Shading, ShapedHighlight, Sparkle, Stocking, TextureRef, Toon,
 };
 use hikage::scene::{Ambient, Bloom, Image, Post, PunctualLight, Scene, ToneCurve};
-use hikage::{Background, Gpu, Renderer, View};
+use hikage::{Background, Gpu, View};
 
-#[path = "support/scene.rs"]
-mod support;
-use support::{cube, gpu, scene, sphere, square, texture, two_tone, view};
+use crate::support::{cube, gpu, render, scene, sphere, square, texture, two_tone, view, with_renderer};
 
 /// Another driver may round edges and ramps differently, never more.
 const TOLERANCE: Tolerance = Tolerance { channel: 6, outliers: 0.006, blob: 16, drift: 1.0 };
@@ -64,20 +62,21 @@ fn panel_view() -> View {
 
 /// A scene under light that comes round it; each picture by what `change` makes of its view.
 fn sweep(gpu: &Gpu, scene: &Scene, change: impl Fn(&mut View, usize)) -> Image {
-    let mut renderer = Renderer::new(gpu).expect("a renderer");
-    let mut uploaded = renderer.upload(scene).expect("an upload");
-    let pictures: Vec<Image> = [-60.0f32, -20.0, 30.0, 75.0, 115.0]
-        .into_iter()
-        .enumerate()
-        .map(|(i, degrees)| {
-            let (sin, cos) = degrees.to_radians().sin_cos();
-            let mut view = panel_view();
-            view.lights.directional.to_light = Vec3::new(sin, 0.45, cos).normalize();
-            change(&mut view, i);
-            averaged(&renderer.render(&mut uploaded, &view).expect("a picture"))
-        })
-        .collect();
-    beside(&pictures)
+    with_renderer(gpu, |renderer| {
+        let mut uploaded = renderer.upload(scene).expect("an upload");
+        let pictures: Vec<Image> = [-60.0f32, -20.0, 30.0, 75.0, 115.0]
+            .into_iter()
+            .enumerate()
+            .map(|(i, degrees)| {
+                let (sin, cos) = degrees.to_radians().sin_cos();
+                let mut view = panel_view();
+                view.lights.directional.to_light = Vec3::new(sin, 0.45, cos).normalize();
+                change(&mut view, i);
+                averaged(&renderer.render(&mut uploaded, &view).expect("a picture"))
+            })
+            .collect();
+        beside(&pictures)
+    })
 }
 
 fn ball(material: Material) -> Scene {
@@ -278,11 +277,11 @@ fn vanishing() {
     let burnt = beside(&[0.0f32, 0.25, 0.5, 0.75, 0.95].map(|amount| {
         let dissolve = Some(Dissolve { amount, cell_m: 0.2, ..Dissolve::default() });
         let outline = Some(Outline { width: OutlineWidth::World { metres: 0.015 }, ..Outline::default() });
-        averaged(&support::render(&gpu, &ball(Material { dissolve, outline, ..two_tone() }), &panel_view()))
+        averaged(&render(&gpu, &ball(Material { dissolve, outline, ..two_tone() }), &panel_view()))
     }));
     let faded = beside(&[1.0f32, 0.8, 0.5, 0.3, 0.1].map(|opacity| {
         let dither_fade = Some(DitherFade { opacity, ..DitherFade::default() });
-        averaged(&support::render(&gpu, &ball(Material { dither_fade, ..two_tone() }), &panel_view()))
+        averaged(&render(&gpu, &ball(Material { dither_fade, ..two_tone() }), &panel_view()))
     }));
     check("vanishing", &[burnt, faded]);
 }

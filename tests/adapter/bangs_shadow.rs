@@ -3,11 +3,9 @@
 use glam::{Mat4, Vec3};
 use hikage::color::LinearRgb;
 use hikage::scene::{Ambient, Bangs, Framing, Image, Role, Scene};
-use hikage::{Channel, Renderer, View};
+use hikage::{Channel, View};
 
-#[path = "support/scene.rs"]
-mod support;
-use support::{anime_heroine, gpu, render};
+use crate::support::{self, anime_heroine, gpu, render};
 
 /// Her face, lit from above and a little from the left.
 fn face(scene: &Scene, side: u32) -> View {
@@ -121,11 +119,7 @@ fn the_shadow_depends_on_head_and_light_alone() {
 fn an_artists_direction_overrides_the_light_and_softness_widens_the_edge() {
     let (gpu, mut scene) = (gpu(), heroine_without_ramps());
     let view = face(&scene, 192);
-    let picture = |scene: &Scene, view: &View| {
-        let mut renderer = Renderer::new(&gpu).expect("a renderer");
-        let mut uploaded = renderer.upload(scene).expect("an upload");
-        renderer.render(&mut uploaded, view).expect("a picture")
-    };
+    let picture = |scene: &Scene, view: &View| render(&gpu, scene, view);
     scene.bangs = Some(Bangs { direction_rad: Some([0.4, 0.5]), ..Bangs::default() });
     let mut turned = view.clone();
     turned.lights.directional.to_light = Vec3::new(-0.25, 0.6, 0.75).normalize();

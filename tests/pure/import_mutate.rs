@@ -1,14 +1,12 @@
 //! Seeded mutation of good files in this process: whatever the bytes, the importer answers with a scene or an error.
 
-#[path = "support/gltf.rs"]
-mod gltf;
-
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;
 
-use gltf::{F32, Glb, U8, floats, picture};
 use hikage::import::{Limits, load_bytes};
 use serde_json::{Value, json};
+
+use crate::gltf::{self, F32, Glb, U8, floats, picture};
 
 const EXECUTIONS: u64 = 200_000;
 

@@ -4,9 +4,7 @@ use glam::Mat4;
 use hikage::scene::{EyesThrough, Framing, Image, Scene};
 use hikage::{Channel, View};
 
-#[path = "support/scene.rs"]
-mod support;
-use support::{gpu, render};
+use crate::support::{self, gpu, render};
 
 fn heroine(through: Option<EyesThrough>) -> Scene {
     let mut scene = support::heroine();

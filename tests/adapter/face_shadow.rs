@@ -10,9 +10,7 @@ use hikage::scene::{Ambient, Framing, HumanBone, Image, Role, Scene};
 use hikage::sdf::FaceMap;
 use hikage::{Gpu, Look, Renderer, View};
 
-#[path = "support/scene.rs"]
-mod support;
-use support::gpu;
+use crate::support::{self, gpu};
 
 fn heroine() -> Scene {
     let mut scene = support::anime_heroine();
@@ -25,10 +23,11 @@ fn heroine() -> Scene {
 }
 
 fn draw(gpu: &Gpu, scene: &Scene, pose: &Pose, view: &View) -> Image {
-    let mut renderer = Renderer::new(gpu).expect("a renderer");
-    let mut uploaded = renderer.upload(scene).expect("an upload");
-    uploaded.set_pose(gpu, scene, pose);
-    renderer.render(&mut uploaded, view).expect("a picture")
+    support::with_renderer(gpu, |renderer| {
+        let mut uploaded = renderer.upload(scene).expect("an upload");
+        uploaded.set_pose(gpu, scene, pose);
+        renderer.render(&mut uploaded, view).expect("a picture")
+    })
 }
 
 /// Light from an angle to the character's left, level.

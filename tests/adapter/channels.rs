@@ -3,9 +3,7 @@
 use hikage::scene::{Framing, Image};
 use hikage::{Channel, Renderer, View};
 
-#[path = "support/scene.rs"]
-mod support;
-use support::{anime_heroine, gpu, pixel};
+use crate::support::{self, anime_heroine, gpu, pixel};
 
 const SHADING: [Channel; 10] = [
     Channel::FaceShadow,

@@ -1,0 +1,16 @@
+//! Laws of what is drawn, and functions of the shaders, on the adapter.
+
+#[path = "../support/scene.rs"]
+mod support;
+
+mod adapters;
+mod bangs_shadow;
+mod body_looks;
+mod channels;
+mod depth_rim;
+mod eye_layers;
+mod eyes_through;
+mod face_shadow;
+mod laws;
+mod oracles;
+mod self_shadow;

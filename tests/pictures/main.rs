@@ -1,0 +1,8 @@
+//! Pictures that were looked at, and sweeps of many pictures.
+
+#[path = "../support/scene.rs"]
+mod support;
+
+mod golden;
+mod golden_looks;
+mod sweeps;

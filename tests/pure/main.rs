@@ -1,0 +1,14 @@
+//! What needs no adapter: files, numbers, texts.
+
+#[path = "../support/gltf.rs"]
+mod gltf;
+
+mod expressions;
+mod golden_comparer;
+mod import;
+mod import_models;
+mod import_mutate;
+mod layout;
+mod look_file;
+mod sdf;
+mod shaders;

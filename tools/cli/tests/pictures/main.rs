@@ -1,0 +1,3 @@
+//! Pictures of the built-in character that were looked at.
+
+mod golden_character;

@@ -1,0 +1,8 @@
+//! The program `hikage`, run as its users run it.
+
+#[path = "../../../../tests/support/gltf.rs"]
+mod gltf;
+
+mod cli;
+mod determinism;
+mod sdf;
