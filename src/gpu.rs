@@ -30,9 +30,6 @@ pub struct AdapterInfo {
 /// Most texels along one side of a texture or picture that Hikage asks of an adapter.
 pub const MAX_TEXTURE_SIDE: u32 = 8192;
 
-/// Textures that Hikage reads in one shader stage; Vulkan, Metal and Direct3D 12 all have more on any desktop.
-pub const MAX_SAMPLED_TEXTURES: u32 = 24;
-
 impl Gpu {
     /// Opens an adapter without a window.
     ///
@@ -78,15 +75,13 @@ impl Gpu {
         Self { device, queue, info: describe(&adapter.get_info()) }
     }
 
-    /// Limits that Hikage needs: WebGPU's defaults, with buffers as large as the adapter has them and
-    /// [`MAX_SAMPLED_TEXTURES`].
+    /// Limits that Hikage needs: WebGPU's defaults, with buffers as large as the adapter has them.
     #[must_use]
     pub fn required_limits(adapter: &wgpu::Adapter) -> wgpu::Limits {
         let most = adapter.limits();
         wgpu::Limits {
             max_buffer_size: most.max_buffer_size,
             max_storage_buffer_binding_size: most.max_storage_buffer_binding_size,
-            max_sampled_textures_per_shader_stage: MAX_SAMPLED_TEXTURES,
             ..wgpu::Limits::default()
         }
     }

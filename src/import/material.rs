@@ -30,6 +30,10 @@ pub(super) fn read_all(
     let mut out = Materials::default();
     for (index, json) in json.iter().enumerate() {
         let mut material = read(json, properties.get(index).and_then(Option::as_ref), textures, warnings)?;
+        if let Some((key, message)) = material.clone().out_of_range() {
+            warnings.add(json.pointer(), format!("{key}: {message}; it is moved there"));
+            material = material.clamped();
+        }
         let sets = gather_uv_sets(&mut material, json.pointer(), warnings);
         out.list.push(material);
         out.uv_sets.push(sets);

@@ -12,7 +12,7 @@ use super::{
     presets,
     values::{merge, nearest, no_such, not_finite, units},
 };
-use crate::material::{About, AlphaMode, Field, Kind, Material, Read, all, registered};
+use crate::material::{About, AlphaMode, Field, Kind, Material, Part, Read, all, out_of_range, registered};
 use crate::color::LinearRgb;
 use crate::import::{Limits, image};
 use crate::scene::{Ambient, DirectionalLight, Image, Lights, Role, Sampler, Scene, Texture, Wrap};
@@ -91,27 +91,20 @@ enum BaseName {
     Anime,
 }
 
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-struct LightSection {
-    direction_rad: [f32; 2],
-    color: [f32; 3],
-    intensity: f32,
-    ambient: [f32; 3],
-    coolness: Option<f32>,
-}
-
-impl Default for LightSection {
-    fn default() -> Self {
-        let light = DirectionalLight::default();
-        let d = light.to_light;
-        Self {
-            direction_rad: [d.x.atan2(d.z), d.y.asin()],
-            color: light.color.0,
-            intensity: light.intensity,
-            ambient: Ambient::default().sky.0,
-            coolness: None,
-        }
+crate::part! {
+    /// Lights of pictures that name none.
+    #[derive(Copy)]
+    LightSection {
+        /// Where the directional light stands: angle to the character's left, and height, radians; none is the default light.
+        direction_rad: Option<[f32; 2]> = None, in -6.2832..=6.2832;
+        /// Its colour, linear.
+        color: [f32; 3] = [1.0; 3], in 0.0..=100.0;
+        /// What its colour is multiplied by.
+        intensity: f32 = 1.0, in 0.0..=1000.0;
+        /// Light from all around, linear.
+        ambient: [f32; 3] = Ambient::default().sky.0, in 0.0..=100.0;
+        /// Of shade ramps: 0 warm, 1 cool; none goes by the light's colour.
+        coolness: Option<f32> = None, in 0.0..=1.0;
     }
 }
 
@@ -270,7 +263,7 @@ impl LookFile {
     }
 
     /// A section of the scene with what the file says over it.
-    fn section<T: Serialize + DeserializeOwned + Default>(
+    fn section<T: Serialize + DeserializeOwned + Default + Part>(
         &self,
         name: &str,
         over: Option<&Value>,
@@ -282,7 +275,11 @@ impl LookFile {
             Some(Value::Table(over)) => {
                 let mut over = over.clone();
                 units(&mut over, false).map_err(|message| self.fault(name, message))?;
-                self.merged(&current.unwrap_or_default(), &over, name).map(Some)
+                let mut section: T = self.merged(&current.unwrap_or_default(), &over, name)?;
+                match out_of_range(&mut section) {
+                    Some((key, message)) => Err(self.fault(&format!("{name}.{key}"), message)),
+                    None => Ok(Some(section)),
+                }
             }
             Some(_) => Err(self.fault(name, "expected a table, or false to switch it off".to_owned())),
         }
@@ -448,10 +445,10 @@ fn add_texture(scene: &mut Scene, image: Image, read: Read) -> usize {
 }
 
 fn lights(section: &LightSection) -> Lights {
-    let [yaw, pitch] = section.direction_rad;
+    let towards = |[yaw, pitch]: [f32; 2]| glam::Vec3::new(yaw.sin() * pitch.cos(), pitch.sin(), yaw.cos() * pitch.cos());
     Lights {
         directional: DirectionalLight {
-            to_light: glam::Vec3::new(yaw.sin() * pitch.cos(), pitch.sin(), yaw.cos() * pitch.cos()),
+            to_light: section.direction_rad.map_or(DirectionalLight::default().to_light, towards),
             color: LinearRgb(section.color),
             intensity: section.intensity,
         },

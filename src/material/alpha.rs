@@ -2,23 +2,20 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Opacity and draw order of a material.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct Alpha {
-    /// How alpha is used. Default: opaque.
-    pub mode: AlphaMode,
-    /// Alpha below which [`AlphaMode::Mask`] cuts. Range 0..1. Default: 0.5.
-    pub cutoff: f32,
-    /// Whether [`AlphaMode::Blend`] writes depth (MToon `transparentWithZWrite`). Default: false.
-    pub write_depth: bool,
-    /// Order among transparent materials, low first (MToon `renderQueueOffsetNumber`). Range -9..9. Default: 0.
-    pub queue_offset: i32,
-}
+use super::plain_parts;
 
-impl Default for Alpha {
-    fn default() -> Self {
-        Self { mode: AlphaMode::Opaque, cutoff: 0.5, write_depth: false, queue_offset: 0 }
+crate::part! {
+    /// Opacity and draw order of a material.
+    #[derive(Copy)]
+    Alpha {
+        /// How alpha is used.
+        mode: AlphaMode = AlphaMode::Opaque;
+        /// Alpha below which [`AlphaMode::Mask`] cuts; above 1 nothing is left.
+        cutoff: f32 = 0.5, in 0.0..=1000.0;
+        /// Whether [`AlphaMode::Blend`] writes depth (MToon `transparentWithZWrite`).
+        write_depth: bool = false;
+        /// Order among transparent materials, low first (MToon `renderQueueOffsetNumber`).
+        queue_offset: i32 = 0, in -9..=9;
     }
 }
 
@@ -34,3 +31,4 @@ pub enum AlphaMode {
     /// Blended.
     Blend,
 }
+plain_parts!(AlphaMode);

@@ -12,7 +12,7 @@ crate::section! {
     }
     {
         /// Colour, linear, times its strength; may exceed 1.
-        color: [f32; 3] = [0.0; 3], in 0.0..=10000.0;
+        color: [f32; 3] = [0.0; 3], in 0.0..=1000000.0;
         /// Texture, sRGB; multiplies the colour.
         texture: Option<TextureRef> = None, read SRGB;
         /// Movement of the texture, UV units a second.

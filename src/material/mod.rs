@@ -13,12 +13,14 @@ pub use authored::{Authored, Substance};
 pub use own::{OwnSection, register};
 pub use section::{
     About, Declared, Encoding, Field, Fields, Kind, Leaf, Options, Part, Preset, Read, Section, Surroundings, UNBOUNDED,
-    Walk,
+    Walk, shown_range,
 };
 pub use texture_ref::{TextureRef, UvTransform};
 
+pub use crate::render::layout::Block;
+
 pub(crate) use own::registered;
-pub(crate) use section::plain_parts;
+pub(crate) use section::{out_of_range, plain_parts};
 
 use section::{Held, sections};
 use serde::{Deserialize, Serialize};
@@ -133,15 +135,19 @@ impl Material {
 
     /// A number that is out of its range: its key and what is wrong with it.
     pub(crate) fn out_of_range(&mut self) -> Option<(String, String)> {
+        if let Some((key, message)) = section::out_of_range(&mut self.alpha) {
+            return Some((format!("alpha.{key}"), message));
+        }
         self.sections_mut().find_map(|section| {
-            let (key, message) = section.out_of_range()?;
+            let (key, message) = section::out_of_range(section)?;
             Some((format!("{}.{key}", section.about().key), message))
         })
     }
 
     /// The same with every number within its range.
     pub(crate) fn clamped(mut self) -> Self {
-        self.sections_mut().for_each(|section| section.clamp());
+        section::clamp(&mut self.alpha);
+        self.sections_mut().for_each(|section| section::clamp(section));
         self
     }
 }

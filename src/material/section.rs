@@ -6,6 +6,7 @@ use std::fmt;
 use super::{Material, TextureRef};
 use crate::motion::Driven;
 use crate::render::layout::Block;
+use crate::scene::Scene;
 use crate::sdf::FaceMap;
 
 /// What is known of a section before any material has it.
@@ -19,6 +20,8 @@ pub struct About {
     pub doc: &'static str,
     /// Its fields.
     pub fields: &'static [Field],
+    /// Its defaults as a look file would write them; what is off at first is left out.
+    pub defaults: fn() -> toml::Table,
     /// Sets of numbers by name.
     pub presets: &'static [Preset],
     /// Parts of the varying that its shader reads: `tangent`, `shadow`. Default: none.
@@ -45,6 +48,7 @@ impl About {
         name: "",
         doc: "",
         fields: &[],
+        defaults: toml::Table::new,
         presets: &[],
         needs: &[],
         channel: None,
@@ -169,6 +173,28 @@ pub struct Surroundings<'a> {
     pub self_shadow: bool,
 }
 
+impl<'a> Surroundings<'a> {
+    /// Those of a material without a scene.
+    pub(crate) fn alone(material: &'a Material) -> Self {
+        Self { material, face_maps: &[], metres_per_uv: [1.0; 2], driven: Driven::NONE, self_shadow: false }
+    }
+
+    /// Those of every material of a scene.
+    pub(crate) fn of_scene(
+        scene: &'a Scene,
+        driven: &'a [Driven],
+        metres_per_uv: &'a [[f32; 2]],
+    ) -> impl Iterator<Item = Self> {
+        scene.materials.iter().zip(driven).zip(metres_per_uv).map(|((material, driven), metres_per_uv)| Self {
+            material,
+            face_maps: &scene.face_maps,
+            metres_per_uv: *metres_per_uv,
+            driven,
+            self_shadow: scene.self_shadow.is_some(),
+        })
+    }
+}
+
 /// What is on in a shader: names of sections, of their textures, and of what they ask for, as `@if(name)` reads them.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Options(std::collections::BTreeSet<String>);
@@ -191,12 +217,17 @@ impl Options {
 }
 
 /// What [`section!`](crate::section) makes of a declaration.
-pub trait Fields: fmt::Debug + Send + Sync + 'static {
+pub trait Fields: Part + fmt::Debug + Send + Sync + 'static {
     /// What is known of it.
     fn about(&self) -> &'static About;
     /// Visits its numbers and textures.
-    fn walk_fields(&mut self, walk: &mut Walk<'_>);
+    fn walk_fields(&mut self, walk: &mut Walk<'_>) {
+        self.walk(ROOT, walk);
+    }
 }
+
+/// What holds all fields of a section.
+const ROOT: &Field = &Field { name: "", doc: "", kind: Kind::Plain };
 
 /// A section: what its declaration cannot say.
 pub trait Section: Fields {
@@ -339,54 +370,45 @@ impl<T: Part> Part for Option<T> {
     }
 }
 
-impl dyn Section + '_ {
-    /// A number that is out of its range or none at all: its key and what is wrong with it.
-    pub(crate) fn out_of_range(&mut self) -> Option<(String, String)> {
-        let mut found = None;
-        self.each_number(&mut |path, field, [low, high], value| {
-            if !(low..=high).contains(&value) && found.is_none() {
-                let range = shown_range(low, high);
-                found = Some((key_of(path), format!("{} is {value}; its range is {range}", field.name)));
-            }
-            value
-        });
-        found
-    }
-
-    /// Moves every number into its range; what is no number becomes the range's lower end.
-    pub(crate) fn clamp(&mut self) {
-        self.each_number(&mut |_, _, [low, high], value| if value.is_nan() { low } else { value.clamp(low, high) });
-    }
-
-    fn each_number(&mut self, map: &mut dyn FnMut(&[&'static str], &'static Field, [f64; 2], f64) -> f64) {
-        let mut visit = |path: &[&'static str], field: &'static Field, leaf: Leaf<'_>| {
-            let Kind::Number { low, high } = field.kind else { return };
-            let range = [low, high];
-            match leaf {
-                Leaf::F32(x) => {
-                    // Ranges are written in decimals: what is equal in 32 bits is within.
-                    let (value, inside) = (*x, (low as f32..=high as f32).contains(x));
-                    let value = if inside { f64::from(value).clamp(low, high) } else { f64::from(value) };
-                    let mapped = map(path, field, range, value);
-                    if !inside {
-                        *x = mapped as f32;
-                    }
-                }
-                Leaf::U32(x) => *x = map(path, field, range, f64::from(*x)) as u32,
-                Leaf::I32(x) => *x = map(path, field, range, f64::from(*x)) as i32,
-                Leaf::Texture(_) | Leaf::FaceMap(_) => {}
-            }
-        };
-        self.walk_fields(&mut Walk::new(&mut visit));
-    }
+/// A number that is out of its range, or none at all: its key and what is wrong with it.
+pub(crate) fn out_of_range(part: &mut dyn Part) -> Option<(String, String)> {
+    let mut found = None;
+    each_number(part, &mut |path, field, [low, high], value| {
+        if !(low..=high).contains(&value) && found.is_none() {
+            found = Some((path.join("."), format!("{} is {value}; its range is {}", field.name, shown_range(low, high))));
+        }
+        value
+    });
+    found
 }
 
-fn key_of(path: &[&'static str]) -> String {
-    path.join(".")
+/// Moves every number into its range; what is no number becomes the range's lower end.
+pub(crate) fn clamp(part: &mut dyn Part) {
+    each_number(part, &mut |_, _, [low, high], value| if value.is_nan() { low } else { value.clamp(low, high) });
+}
+
+fn each_number(
+    part: &mut dyn Part,
+    map: &mut dyn FnMut(&[&'static str], &'static Field, [f64; 2], f64) -> f64,
+) {
+    let mut visit = |path: &[&'static str], field: &'static Field, leaf: Leaf<'_>| {
+        let Kind::Number { low, high } = field.kind else { return };
+        let range = [low, high];
+        match leaf {
+            // Ranges are written in decimals: what is equal in 32 bits is within.
+            Leaf::F32(x) if (low as f32..=high as f32).contains(x) => {}
+            Leaf::F32(x) => *x = map(path, field, range, f64::from(*x)) as f32,
+            Leaf::U32(x) => *x = map(path, field, range, f64::from(*x)) as u32,
+            Leaf::I32(x) => *x = map(path, field, range, f64::from(*x)) as i32,
+            Leaf::Texture(_) | Leaf::FaceMap(_) => {}
+        }
+    };
+    part.walk(ROOT, &mut Walk::new(&mut visit));
 }
 
 /// Ends of a range as tables and messages show them; what is beyond any use counts as no end.
-pub(crate) fn shown_range(low: f64, high: f64) -> String {
+#[must_use]
+pub fn shown_range(low: f64, high: f64) -> String {
     let end = |x: f64| if x.abs() >= UNBOUNDED { String::new() } else { x.to_string() };
     format!("{}..{}", end(low), end(high))
 }
@@ -438,6 +460,7 @@ macro_rules! section {
                 name: stringify!($name),
                 doc: concat!($($doc, "\n"),*),
                 fields: Self::FIELDS,
+                defaults: || $crate::__private::table(&Self::default()),
                 presets: &[$($($crate::material::Preset {
                     name: stringify!($preset),
                     doc: concat!($($preset_doc),*),
@@ -464,10 +487,6 @@ macro_rules! section {
         impl $crate::material::Fields for $name {
             fn about(&self) -> &'static $crate::material::About {
                 &Self::ABOUT
-            }
-
-            fn walk_fields(&mut self, walk: &mut $crate::material::Walk<'_>) {
-                Self::walk_all(self, walk);
             }
         }
     };
@@ -523,7 +542,10 @@ macro_rules! part {
                 },)*
             ];
 
-            fn walk_all(&mut self, walk: &mut $crate::material::Walk<'_>) {
+        }
+
+        impl $crate::material::Part for $name {
+            fn walk(&mut self, _: &'static $crate::material::Field, walk: &mut $crate::material::Walk<'_>) {
                 let mut fields = Self::FIELDS.iter();
                 $(
                     if let Some(field) = fields.next() {
@@ -531,12 +553,6 @@ macro_rules! part {
                     }
                 )*
                 let _ = fields;
-            }
-        }
-
-        impl $crate::material::Part for $name {
-            fn walk(&mut self, _: &'static $crate::material::Field, walk: &mut $crate::material::Walk<'_>) {
-                self.walk_all(walk);
             }
         }
     };

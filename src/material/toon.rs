@@ -21,6 +21,13 @@ impl Default for Shading {
     }
 }
 
+impl Shading {
+    /// Whether light falls on it.
+    pub(crate) fn is_lit(&self) -> bool {
+        !matches!(self, Self::Unlit)
+    }
+}
+
 impl Held for Shading {
     const ABOUT: &'static About = &Toon::ABOUT;
 

@@ -2,12 +2,15 @@
 
 use glam::Vec3;
 
-use super::geometry::Part;
+use super::geometry::{Geometry, Part};
 use super::material::Composition;
-use super::pass::{Mark, Picture, bangs_shadow, eyes_through, fluff, glow, opaque, outline, prepass, shadow, transparent};
+use super::shaders::{Recipe, Shaders};
+use super::{Output, uv_metric};
+use super::pass::{DEPTH_STENCIL_FORMAT, Mark, Picture, bangs_shadow, eyes_through, fluff, glow, opaque, outline, prepass, shadow, transparent};
 use super::upload::GpuScene;
 use super::variants::{Drawn, Request};
-use crate::material::{AlphaMode, Material};
+use crate::material::{AlphaMode, Material, Surroundings};
+use crate::motion::Driven;
 use crate::scene::{Role, Scene};
 
 /// One draw: a range of indices under one material.
@@ -140,6 +143,18 @@ pub(super) fn requests(
         }
     };
     draws.iter().map(request).collect()
+}
+
+/// What a material of a scene is drawn with, in every pass.
+pub(super) fn recipes_of(shaders: &Shaders, scene: &Scene, material: usize) -> Vec<Recipe> {
+    let compositions: Vec<Composition> = Surroundings::of_scene(scene, &Driven::of(scene), &uv_metric::metres_per_uv(scene))
+        .map(|of| Composition::new(shaders, &of))
+        .collect();
+    let picture = Picture { output: Output::default(), depth_format: DEPTH_STENCIL_FORMAT, channel: None };
+    let draws = draws(scene, &Geometry::gather(scene).parts, true);
+    let all = requests(scene, &draws, &compositions, &picture);
+    let of_material = draws.iter().zip(&all).filter(|(draw, _)| draw.material == material);
+    of_material.flat_map(|(_, pipelines)| pipelines.iter().map(|r| r.recipe.clone())).collect()
 }
 
 /// What shows the surface of a draw; in a debug channel there is no more.

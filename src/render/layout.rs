@@ -53,6 +53,12 @@ impl Layout {
         self.index(member).is_some()
     }
 
+    /// Offset of a member.
+    #[cfg(test)]
+    pub fn offset(&self, member: &str) -> Option<usize> {
+        self.index(member).map(|i| self.members[i].offset)
+    }
+
     fn index(&self, member: &str) -> Option<usize> {
         self.members.binary_search_by(|m| m.name.as_str().cmp(member)).ok()
     }

@@ -47,7 +47,7 @@ impl Composition {
     /// Of a material whose numbers are within their ranges.
     pub fn new(shaders: &Shaders, of: &Surroundings<'_>) -> Self {
         let mut material = of.material.clone();
-        let has_light = !material.burns() && material.sections().any(|s| s.about().is_model && !s.about().unlit);
+        let has_light = material.shading.is_lit() && !material.burns();
         let mut components = Vec::new();
         for section in material.sections_mut() {
             let about = section.about();

@@ -16,9 +16,11 @@ mod textures;
 mod upload;
 mod uv_metric;
 mod variants;
-#[doc(hidden)]
-pub mod vertex;
+mod vertex;
 mod view;
+
+#[cfg(test)]
+mod tests;
 
 use std::time::Duration;
 

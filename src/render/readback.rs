@@ -36,7 +36,8 @@ pub(crate) fn read_texels(gpu: &Gpu, texture: &wgpu::Texture, timeout: Duration)
         let _ = sender.send(result);
     });
     gpu.wait(timeout)?;
-    match receiver.try_recv() {
+    // Another thread may have found the work done, and still be on its way to say so.
+    match receiver.recv_timeout(timeout) {
         Ok(Ok(())) => {}
         Ok(Err(e)) => return Err(Error::Gpu(format!("reading the picture back: {e}"))),
         Err(_) => return Err(Error::Gpu("reading the picture back: the adapter gave no answer".to_owned())),

@@ -3,7 +3,7 @@
 
 use std::borrow::Cow;
 use std::collections::{BTreeMap, HashMap};
-use std::fmt::Write;
+use std::fmt::{self, Write};
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
@@ -11,7 +11,10 @@ use wesl::{CompileOptions, ModulePath, NoMangler, ResolveError, Resolver};
 
 pub use super::check_wgsl::{MAX_WGSL_BYTES, ShaderSummary, check};
 use super::layout::{Layout, struct_texts};
-use crate::material::{About, Declared, LISTED, Options, Section, registered};
+use crate::material::{About, Declared, LISTED, Material, Options, Section, Surroundings, registered};
+use super::draw_list::recipes_of;
+use super::material::bytes;
+use crate::scene::Scene;
 use crate::{Error, Result};
 
 /// The files of `wgsl/` by module: `lib/color`.
@@ -97,7 +100,7 @@ pub(crate) struct Bound {
 }
 
 /// What a shader is linked from.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub(crate) struct Recipe {
     /// Stem of the entry file in `wgsl/pass`.
     pub pass: &'static str,
@@ -107,6 +110,12 @@ pub(crate) struct Recipe {
     pub options: Options,
     /// Textures of the sections.
     pub textures: Vec<Bound>,
+}
+
+impl fmt::Debug for Recipe {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.key())
+    }
 }
 
 impl Recipe {
@@ -210,6 +219,18 @@ impl Shaders {
         let sections: Vec<&'static About> = LISTED.iter().copied().chain(own.iter().copied()).collect();
         let hooks = sections.iter().map(|about| (about.key, hooks_of(about))).collect();
         Ok(Self { places: Arc::new(Places::new(&sections)?), hooks, own, texts: Mutex::default() })
+    }
+
+    /// Refuses a material with a section that was not known when this was made.
+    pub fn check(&self, material: &Material) -> Result<()> {
+        match material.sections().find(|s| !self.hooks.contains_key(s.about().key)) {
+            None => Ok(()),
+            Some(section) => {
+                let key = section.about().key;
+                let message = format!("has the section {key}, which this renderer does not know; call material::register before making the renderer");
+                Err(Error::Argument { what: format!("material {:?}", material.name), message })
+            }
+        }
     }
 
     /// Stages in which a section takes part.
@@ -352,6 +373,33 @@ impl Stage {
     }
 }
 
+/// A shader that draws a material.
+#[derive(Clone, Debug)]
+pub struct MaterialShader {
+    /// The pass: stem of its file in `wgsl/pass`.
+    pub pass: &'static str,
+    /// The generated module `package::material`: which sections take part, stage by stage, and what they bind.
+    pub page: String,
+    /// The whole text, as the driver gets it.
+    pub text: String,
+}
+
+/// Every shader that draws a material of a scene with four samples a pixel, in the order of the frame. No adapter is needed.
+///
+/// # Errors
+/// [`Error::Input`] for a fault in the WGSL of an application's section.
+pub fn of_material(scene: &Scene, material: usize) -> Result<Vec<MaterialShader>> {
+    let shaders = Shaders::new()?;
+    let mut list: Vec<MaterialShader> = Vec::new();
+    for recipe in recipes_of(&shaders, scene, material) {
+        let text = shaders.linked(&recipe)?.text.clone();
+        if !list.iter().any(|s| s.text == text) {
+            list.push(MaterialShader { pass: recipe.pass, page: shaders.page(&recipe), text });
+        }
+    }
+    Ok(list)
+}
+
 /// Text of a section's file.
 fn look_text(about: &About) -> &'static str {
     about.wgsl.unwrap_or_else(|| file(&format!("look/{}", about.key)))
@@ -439,7 +487,7 @@ fn located(sections: &[&'static About], text: &str, line: &str, message: &str) -
 }
 
 /// Links and validates a section of an application in a toon surface, with every option off and with its textures.
-pub(crate) fn check_section<S: Section + Declared + Default>() -> Result<()> {
+pub(crate) fn check_section<S: Section + Declared + Clone + Default + PartialEq>() -> Result<()> {
     let about = S::ABOUT;
     let shaders = Shaders::with(registered().into_iter().map(|r| r.about).chain([about]).collect())?;
     let base = LISTED.iter().copied().filter(|a| ["base", "toon"].contains(&a.key));
@@ -452,6 +500,9 @@ pub(crate) fn check_section<S: Section + Declared + Default>() -> Result<()> {
         recipe.options.set(name.clone(), true);
         recipe.textures.push(Bound { name, is_array: false });
     }
+    let mut material = Material::default();
+    material.set_own(Some(S::default()));
+    bytes(&shaders.places, &Surroundings::alone(&material))?;
     let linked = shaders.linked(&recipe)?;
     let module = naga::front::wgsl::parse_str(&linked.text).map_err(|e| fault_in(&recipe.sections, &linked.text, &e))?;
     let mut validator =

@@ -22,7 +22,7 @@ use super::textures::{self, TextureSet};
 use super::variants::{BoundLayout, Drawn, Request, Variant, Variants};
 use super::vertex::AffineRows;
 use super::{Renderer, View, uv_metric};
-use crate::material::{Encoding, MAX_SHELLS, Material, Surroundings};
+use crate::material::{Encoding, MAX_SHELLS, Material, Surroundings, out_of_range};
 use crate::motion::{Driven, Pose};
 use crate::scene::{EyesThrough, Image, Post, Scene};
 use crate::sdf::FaceMap;
@@ -199,6 +199,17 @@ impl Renderer {
 
     /// What the materials of a scene are made of.
     fn looks_of(&self, scene: &Scene) -> Result<Described> {
+        let faults = [
+            ("bangs", scene.bangs.and_then(|mut s| out_of_range(&mut s))),
+            ("self_shadow", scene.self_shadow.and_then(|mut s| out_of_range(&mut s))),
+            ("eyes_through", scene.eyes_through.and_then(|mut s| out_of_range(&mut s))),
+            ("post", scene.post.and_then(|mut s| out_of_range(&mut s))),
+        ];
+        for (section, fault) in faults {
+            if let Some((key, message)) = fault {
+                return Err(Error::Argument { what: format!("{section}.{key}"), message });
+            }
+        }
         let sources = scene.materials.clone();
         for (index, material) in sources.iter().enumerate() {
             if let Some((key, message)) = material.clone().out_of_range() {
@@ -208,12 +219,11 @@ impl Renderer {
         }
         let metres_per_uv = uv_metric::metres_per_uv(scene);
         let driven = Driven::of(scene);
-        let self_shadow = scene.self_shadow.is_some();
         let mut compositions = Vec::with_capacity(sources.len());
-        for ((material, driven), metres_per_uv) in sources.iter().zip(&driven).zip(metres_per_uv.iter().copied()) {
-            let of = Surroundings { material, face_maps: &scene.face_maps, metres_per_uv, driven, self_shadow };
+        for of in Surroundings::of_scene(scene, &driven, &metres_per_uv) {
+            self.variants.shaders.check(of.material)?;
             let composition = Composition::new(&self.variants.shaders, &of);
-            composition.check(&material.name)?;
+            composition.check(&of.material.name)?;
             compositions.push(composition);
         }
         Ok(Described { sources, compositions, metres_per_uv, driven })

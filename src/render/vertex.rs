@@ -1,5 +1,5 @@
-//! Vertices and what deforms them, as the shaders' buffers hold them. `tests/pure/layout.rs` compares the structs with those
-//! of `wgsl/pass/deform.wgsl`.
+//! Vertices and what deforms them, as the shaders' buffers hold them: whole lists, which no name could reach one by one.
+//! A test compares the structs with those of `wgsl/pass/deform.wgsl`.
 
 use bytemuck::{Pod, Zeroable};
 use glam::{Mat4, Vec3};
@@ -79,4 +79,64 @@ pub(crate) fn unpack_unit(packed: u32) -> Vec3 {
     let t = (-z).max(0.0);
     let towards = |c: f32| if c >= 0.0 { c - t } else { c + t };
     Vec3::new(towards(x), towards(y), z).normalize_or(Vec3::Z)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::mem::offset_of;
+
+    use super::*;
+    use crate::render::layout::Layout;
+    use crate::render::shaders::file;
+
+    #[test]
+    fn structs_match_their_wgsl() {
+        let check = |name: &str, size: usize, members: &[(&str, usize)]| {
+            let layout = Layout::of(file("pass/deform"), name);
+            assert_eq!(layout.size, size, "size of {name}");
+            for (member, offset) in members {
+                assert_eq!(layout.offset(member), Some(*offset), "{name}.{member}");
+            }
+        };
+        check(
+            "DeformGroup",
+            size_of::<DeformGroup>(),
+            &[
+                ("first_vertex", offset_of!(DeformGroup, first_vertex)),
+                ("first_influence", offset_of!(DeformGroup, first_influence)),
+                ("influences_per_vertex", offset_of!(DeformGroup, influences_per_vertex)),
+                ("first_joint", offset_of!(DeformGroup, first_joint)),
+                ("first_weight", offset_of!(DeformGroup, first_weight)),
+            ],
+        );
+        check(
+            "Joint",
+            size_of::<AffineRows>(),
+            &[
+                ("row_x", offset_of!(AffineRows, row_x)),
+                ("row_y", offset_of!(AffineRows, row_y)),
+                ("row_z", offset_of!(AffineRows, row_z)),
+            ],
+        );
+        // Vectors of the CPU are single numbers in these, because WGSL would align them to 16 bytes.
+        check(
+            "DeformVertex",
+            size_of::<DeformVertex>(),
+            &[
+                ("x", offset_of!(DeformVertex, position)),
+                ("normal", offset_of!(DeformVertex, normal)),
+                ("tangent", offset_of!(DeformVertex, tangent)),
+                ("outline_normal", offset_of!(DeformVertex, outline_normal)),
+            ],
+        );
+        check(
+            "MorphEntry",
+            size_of::<MorphEntry>(),
+            &[
+                ("target_index", offset_of!(MorphEntry, target_index)),
+                ("dx", offset_of!(MorphEntry, position)),
+                ("nx", offset_of!(MorphEntry, normal)),
+            ],
+        );
+    }
 }

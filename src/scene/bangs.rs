@@ -1,29 +1,25 @@
 //! What casts the shadow of the bangs.
 
-/// The light of the bangs' shadow: what casts on the face drawn from an orthographic camera that is fitted to the head.
-///
-/// Casters are the parts of the roles [`HairFront`](super::Role::HairFront), [`Skin`](super::Role::Skin) (hands),
-/// [`Cloth`](super::Role::Cloth) and [`Accessory`](super::Role::Accessory), and all of other characters (the first 16 of a
-/// crowd); materials with a [`BangsShadow`](crate::material::BangsShadow) receive it. The texels of its map have a fixed
-/// size in metres, so that neither zoom nor field of view changes the edge.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct Bangs {
-    /// Where the shadow's light stands, in the frame of the head: angle to the character's left, and height over the
-    /// front, radians. `None`: where the directional light stands, held within 35 degrees to the sides and between 10
-    /// and 40 degrees of height, so that the shadow stays one of bangs and off the cheeks. Default: `None`.
-    pub direction_rad: Option<[f32; 2]>,
-    /// Width of the soft edge, metres. Range 0.0005..0.05. Default: 0.003.
-    pub soft_width_m: f32,
-    /// Sharpness c of the exponential test, for each unit of the depth range, which is twice the width of the camera's
-    /// picture: of a caster `gap` before the receiver, `exp(-c gap)` leaks. Range 100..5000. Default: 1500.
-    pub hardness: f32,
-    /// Distance by which a caster must lie before the receiver, metres. Range 0..0.01. Default: 0.001.
-    pub bias_m: f32,
-}
-
-impl Default for Bangs {
-    fn default() -> Self {
-        Self { direction_rad: None, soft_width_m: 0.003, hardness: 1500.0, bias_m: 0.001 }
+crate::part! {
+    /// The light of the bangs' shadow: what casts on the face drawn from an orthographic camera that is fitted to the head.
+    ///
+    /// Casters are the parts of the roles [`HairFront`](super::Role::HairFront), [`Skin`](super::Role::Skin) (hands),
+    /// [`Cloth`](super::Role::Cloth) and [`Accessory`](super::Role::Accessory), and all of other characters (the first 16 of a
+    /// crowd); materials with a [`BangsShadow`](crate::material::BangsShadow) receive it. The texels of its map have a fixed
+    /// size in metres, so that neither zoom nor field of view changes the edge.
+    #[derive(Copy)]
+    Bangs {
+        /// Where the shadow's light stands, in the frame of the head: angle to the character's left, and height over the
+        /// front, radians. `None`: where the directional light stands, held within 35 degrees to the sides and between 10
+        /// and 40 degrees of height, so that the shadow stays one of bangs and off the cheeks.
+        direction_rad: Option<[f32; 2]> = None, in -3.1416..=3.1416;
+        /// Width of the soft edge, metres.
+        soft_width_m: f32 = 0.003, in 0.0005..=0.05;
+        /// Sharpness c of the exponential test, for each unit of the depth range, which is twice the width of the camera's
+        /// picture: of a caster `gap` before the receiver, `exp(-c gap)` leaks.
+        hardness: f32 = 1500.0, in 100.0..=5000.0;
+        /// Distance by which a caster must lie before the receiver, metres.
+        bias_m: f32 = 0.001, in 0.0..=0.01;
     }
 }
+

@@ -1,45 +1,37 @@
 //! What is done to the whole picture once it is drawn.
 
-/// Bloom, tone curve and antialiasing. The picture is drawn in half floats then, and the background is laid behind it last,
-/// so that it keeps its colour, or stays transparent.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct Post {
-    /// Light that spreads. Default: none.
-    pub bloom: Option<Bloom>,
-    /// What becomes of light that is brighter than white. Default: none.
-    pub tone: ToneCurve,
-    /// Smooths edges in the finished picture where it has one sample a pixel (after FXAA, Lottes 2009). Default: true.
-    pub antialias: bool,
-}
+use crate::material::plain_parts;
 
-impl Default for Post {
-    fn default() -> Self {
-        Self { bloom: None, tone: ToneCurve::None, antialias: true }
+crate::part! {
+    /// Bloom, tone curve and antialiasing. The picture is drawn in half floats then, and the background is laid behind it last,
+    /// so that it keeps its colour, or stays transparent.
+    #[derive(Copy)]
+    Post {
+        /// Light that spreads.
+        bloom: Option<Bloom> = None, part Bloom;
+        /// What becomes of light that is brighter than white.
+        tone: ToneCurve = ToneCurve::None;
+        /// Smooths edges in the finished picture where it has one sample a pixel (after FXAA, Lottes 2009).
+        antialias: bool = true;
     }
 }
 
-/// Spreads the light of materials that have a [`Glow`](crate::material::Glow), and of nothing else.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct Bloom {
-    /// Share of the light that spreads. Range 0..4. Default: 0.6.
-    pub strength: f32,
-    /// How far it spreads, share of the picture's height. Range 0.002..0.25. Default: 0.04.
-    pub radius: f32,
+crate::part! {
+    /// Spreads the light of materials that have a [`Glow`](crate::material::Glow), and of nothing else.
+    #[derive(Copy)]
+    Bloom {
+        /// Share of the light that spreads.
+        strength: f32 = 0.6, in 0.0..=4.0;
+        /// How far it spreads, share of the picture's height.
+        radius: f32 = 0.04, in 0.002..=0.25;
+    }
 }
 
 impl Bloom {
     /// Pictures below that of the light: each doubles the reach of about two texels, and the light stands at half the size.
     pub(crate) fn levels(&self, height: u32) -> usize {
-        let reach_px = (self.radius.clamp(0.002, 0.25) * height as f32 * 0.25).max(1.0);
+        let reach_px = (self.radius * height as f32 * 0.25).max(1.0);
         (reach_px.log2().round() as usize).clamp(1, 7)
-    }
-}
-
-impl Default for Bloom {
-    fn default() -> Self {
-        Self { strength: 0.6, radius: 0.04 }
     }
 }
 
@@ -55,3 +47,4 @@ pub enum ToneCurve {
     /// Khronos PBR Neutral: compressed above 0.8, then faded to white.
     Neutral,
 }
+plain_parts!(ToneCurve);

@@ -71,8 +71,8 @@ fn received_shadow_is_the_dark_end_of_the_ramp() {
     }
     let view = face(&scene, 256);
     let channel = |channel| render(&gpu, &scene, &View { channel, ..view.clone() });
-    let (arrived, place) = (channel(Channel::BangsShadow), channel(Channel::ShadeRamp));
-    let of_face = channel(Channel::FaceShadow);
+    let (arrived, place) = (channel(Channel::Look("bangs-shadow")), channel(Channel::Look("shade-ramp")));
+    let of_face = channel(Channel::Look("face-shadow"));
     let (mut dark, mut lit) = (0, 0);
     for ((arrived, place), face) in arrived.pixels.chunks(4).zip(place.pixels.chunks(4)).zip(of_face.pixels.chunks(4)) {
         // Inside of the face, away from edges that samples share: full light of the map, and no light through the bangs.

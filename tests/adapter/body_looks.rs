@@ -44,14 +44,14 @@ fn every_look_shows() {
     let plain = render(&gpu, &ball(|_| ()), &view);
     type Change = fn(&mut Material);
     let looks: [(Channel, Change); 8] = [
-        (Channel::Highlight, |m| m.shaped_highlight = Some(ShapedHighlight::default())),
-        (Channel::Sparkle, |m| m.sparkle = Some(Sparkle::default())),
-        (Channel::Stone, |m| m.gem = Some(Gem::ruby())),
-        (Channel::Stone, |m| m.diamond = Some(Diamond::default())),
-        (Channel::Fluff, |m| m.fluff = Some(Fluff { length_m: 0.05, ..Fluff::default() })),
-        (Channel::Overlay, |m| m.stocking = Some(Stocking::default())),
-        (Channel::Dissolve, |m| m.dissolve = Some(Dissolve { amount: 0.4, ..Dissolve::default() })),
-        (Channel::Emission, |m| m.emission = Emission { color: [0.0, 0.4, 0.1], ..Emission::default() }),
+        (Channel::Look("highlight"), |m| m.shaped_highlight = Some(ShapedHighlight::default())),
+        (Channel::Look("sparkle"), |m| m.sparkle = Some(Sparkle::default())),
+        (Channel::Look("stone"), |m| m.gem = Some(Gem::ruby())),
+        (Channel::Look("stone"), |m| m.diamond = Some(Diamond::default())),
+        (Channel::Look("fluff"), |m| m.fluff = Some(Fluff { length_m: 0.05, ..Fluff::default() })),
+        (Channel::Look("overlay"), |m| m.stocking = Some(Stocking::default())),
+        (Channel::Look("dissolve"), |m| m.dissolve = Some(Dissolve { amount: 0.4, ..Dissolve::default() })),
+        (Channel::Look("emission"), |m| m.emission = Emission { color: [0.0, 0.4, 0.1], ..Emission::default() }),
     ];
     for (channel, change) in looks {
         let scene = ball(change);
@@ -74,7 +74,7 @@ fn a_shaped_highlight_keeps_its_area() {
         .iter()
         .map(|degrees| {
             let yaw = degrees.to_radians();
-            let mut view = View { channel: Channel::Highlight, ..ball_view(256) };
+            let mut view = View { channel: Channel::Look("highlight"), ..ball_view(256) };
             view.lights.directional.to_light = Vec3::new(yaw.sin(), 0.2, yaw.cos()).normalize();
             let image = render(&gpu, &scene, &view);
             image.pixels.chunks(4).map(|p| f64::from(p[0]) / 255.0).sum()
@@ -108,7 +108,7 @@ fn sparks_do_not_flicker_and_keep_their_number() {
         m.sparkle = Some(Sparkle { spread: 0.8, ..Sparkle::default() });
     });
     let at = |degrees: f32, zoom: f32| {
-        let mut view = View { channel: Channel::Sparkle, ..ball_view(256) };
+        let mut view = View { channel: Channel::Look("sparkle"), ..ball_view(256) };
         view.camera.fov_y_rad /= zoom;
         view.lights.directional.to_light = Vec3::new(0.2, 0.3, 1.0).normalize();
         // The light turns with the viewer: only the surface's grains change their angle.
@@ -120,7 +120,7 @@ fn sparks_do_not_flicker_and_keep_their_number() {
     };
     // Grains move with the surface, so the light alone turns for the flicker.
     let lit_from = |degrees: f32| {
-        let mut view = View { channel: Channel::Sparkle, ..ball_view(256) };
+        let mut view = View { channel: Channel::Look("sparkle"), ..ball_view(256) };
         view.lights.directional.to_light =
             glam::Quat::from_rotation_y(degrees.to_radians()) * Vec3::new(0.2, 0.3, 1.0).normalize();
         render(&gpu, &scene, &view)
@@ -257,7 +257,7 @@ fn rims_have_sides_masks_lamps_and_an_end() {
     let mut masked = rimmed(rim);
     let mask = texture(&mut masked, 4, 16, |_, y| [if y < 8 { 0 } else { 255 }; 4]);
     masked.materials[0].depth_rim = Some(DepthRim { width_mask: Some(mask), light_side: [-1.5, -1.2], ..rim });
-    let image = render(&gpu, &masked, &View { channel: Channel::DepthRim, ..view.clone() });
+    let image = render(&gpu, &masked, &View { channel: Channel::Look("depth-rim"), ..view.clone() });
     let rows = |rows: std::ops::Range<u32>| {
         rows.map(|y| (0..256).filter(|x| pixel(&image, *x, y)[0] > 99).count()).sum::<usize>()
     };
@@ -278,7 +278,7 @@ fn inner_lines_are_drawn_where_surfaces_meet() {
         right.normals = vec![right_normal; 4];
         scene(vec![(square([-0.25, 0.0], 0.25, 0.0), material(lines)), (right, material(lines))])
     };
-    let view = View { channel: Channel::InnerLines, background: Background::Color(Srgb([0; 3])), ..ball_view(512) };
+    let view = View { channel: Channel::Look("inner-lines"), background: Background::Color(Srgb([0; 3])), ..ball_view(512) };
     let line = |scene: &Scene| {
         let image = render(&gpu, scene, &view);
         (0..512).map(|x| f32::from(pixel(&image, x, 256)[0]) / 255.0).map(hikage::color::linear_from_srgb).sum::<f32>()

@@ -6,16 +6,16 @@ use hikage::{Channel, Renderer, View};
 use crate::support::{self, anime_heroine, gpu, pixel};
 
 const SHADING: [Channel; 10] = [
-    Channel::FaceShadow,
-    Channel::ShadeRamp,
-    Channel::Fur,
-    Channel::FacePaint,
-    Channel::Highlight,
-    Channel::BangsShadow,
-    Channel::Layer,
-    Channel::DepthRim,
-    Channel::EyesThrough,
-    Channel::SelfShadow,
+    Channel::Look("face-shadow"),
+    Channel::Look("shade-ramp"),
+    Channel::Look("fur"),
+    Channel::Look("face-paint"),
+    Channel::Look("highlight"),
+    Channel::Look("bangs-shadow"),
+    Channel::Look("layer"),
+    Channel::Look("depth-rim"),
+    Channel::Look("eyes-through"),
+    Channel::Look("self-shadow"),
 ];
 
 /// Share of pixels that are not black.
@@ -72,7 +72,7 @@ fn the_transition_is_shown_where_no_ramp_is() {
     }
     let mut renderer = Renderer::new(&gpu).expect("a renderer");
     let mut uploaded = renderer.upload(&scene).expect("an upload");
-    let view = View { channel: Channel::Transition, ..View::framed(&scene, Framing::Face, 0.0, [256, 256]) };
+    let view = View { channel: Channel::Look("transition"), ..View::framed(&scene, Framing::Face, 0.0, [256, 256]) };
     let share = share(&renderer.render(&mut uploaded, &view).expect("a channel"));
     assert!((0.05..0.99).contains(&share), "{share}");
 }

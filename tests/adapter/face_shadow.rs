@@ -10,7 +10,7 @@ use hikage::scene::{Ambient, Framing, HumanBone, Image, Role, Scene};
 use hikage::sdf::FaceMap;
 use hikage::{Gpu, Look, Renderer, View};
 
-use crate::support::{self, gpu};
+use crate::support::{self, Lent, gpu};
 
 fn heroine() -> Scene {
     let mut scene = support::anime_heroine();
@@ -22,7 +22,7 @@ fn heroine() -> Scene {
     scene
 }
 
-fn draw(gpu: &Gpu, scene: &Scene, pose: &Pose, view: &View) -> Image {
+fn draw(gpu: &Lent, scene: &Scene, pose: &Pose, view: &View) -> Image {
     support::with_renderer(gpu, |renderer| {
         let mut uploaded = renderer.upload(scene).expect("an upload");
         uploaded.set_pose(gpu, scene, pose);
@@ -169,7 +169,7 @@ fn texel(tau: f32) -> Vec<[u16; 4]> {
 }
 
 /// Mean green of the cheeks under light from an angle and a height.
-fn cheek(gpu: &Gpu, scene: &Scene, yaw_deg: f32, pitch_deg: f32) -> f32 {
+fn cheek(gpu: &Lent, scene: &Scene, yaw_deg: f32, pitch_deg: f32) -> f32 {
     let mut view = portrait();
     let (yaw, pitch) = (yaw_deg.to_radians(), pitch_deg.to_radians());
     view.lights.directional.to_light = Vec3::new(yaw.sin() * pitch.cos(), pitch.sin(), yaw.cos() * pitch.cos());

@@ -13,4 +13,5 @@ mod eyes_through;
 mod face_shadow;
 mod laws;
 mod oracles;
+mod own_look;
 mod self_shadow;

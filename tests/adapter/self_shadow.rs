@@ -135,7 +135,7 @@ fn the_chin_shades_the_neck() {
     view.lights.ambient = Ambient::uniform(LinearRgb::BLACK);
     view.lights.directional.to_light = Vec3::new(0.1, 0.8, 0.6).normalize();
     let with = render(&gpu, &heroine, &view);
-    let channel = render(&gpu, &heroine, &View { channel: Channel::SelfShadow, ..view.clone() });
+    let channel = render(&gpu, &heroine, &View { channel: Channel::Look("self-shadow"), ..view.clone() });
     let without = render(&gpu, &Scene { self_shadow: None, ..heroine }, &view);
     let lighter = with.pixels.iter().zip(&without.pixels).filter(|(a, b)| a.saturating_sub(**b) > 2).count();
     let darker = with.pixels.iter().zip(&without.pixels).filter(|(a, b)| b.saturating_sub(**a) > 12).count();

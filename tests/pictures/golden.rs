@@ -261,7 +261,7 @@ fn matcap_with_its_top_at_the_top() {
         [spot.max(floor / 3), spot.max(floor / 2), spot.max(floor), 255]
     });
     for (material, color) in scene.materials.iter_mut().zip([[1.0; 3], [1.0, 0.5, 0.2], [0.0; 3]]) {
-        material.matcap = Some(Matcap { texture: picture.texture, color });
+        material.matcap = Some(Matcap { texture: picture, color });
     }
     check("matcap", &scene, &row_view(3));
 }

@@ -61,7 +61,7 @@ fn panel_view() -> View {
 }
 
 /// A scene under light that comes round it; each picture by what `change` makes of its view.
-fn sweep(gpu: &Gpu, scene: &Scene, change: impl Fn(&mut View, usize)) -> Image {
+fn sweep(gpu: &Lent, scene: &Scene, change: impl Fn(&mut View, usize)) -> Image {
     with_renderer(gpu, |renderer| {
         let mut uploaded = renderer.upload(scene).expect("an upload");
         let pictures: Vec<Image> = [-60.0f32, -20.0, 30.0, 75.0, 115.0]

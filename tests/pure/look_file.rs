@@ -225,7 +225,7 @@ fn maps_and_textures_are_read_from_beside_the_file() {
     let image = |texture: usize| scene.images[scene.textures[texture].image].pixels[0];
     assert_eq!(image(face.base.texture.expect("a texture").texture), 10);
     assert_eq!(
-        (image(face.matcap.expect("a matcap").texture), image(face.highlight.expect("one").map.texture)),
+        (image(face.matcap.expect("a matcap").texture.texture), image(face.highlight.expect("one").map.texture)),
         (200, 200)
     );
 

@@ -8,7 +8,6 @@ mod golden_comparer;
 mod import;
 mod import_models;
 mod import_mutate;
-mod layout;
 mod look_file;
 mod sdf;
 mod shaders;

@@ -2,6 +2,7 @@
 
 #![allow(dead_code, reason = "every test file uses its own share")]
 
+use std::cell::RefCell;
 use std::ops::Deref;
 use std::sync::Mutex;
 
@@ -13,18 +14,21 @@ use hikage::{
     scene::{Ambient, Camera, DirectionalLight, Image, Lights, Mesh, Node, Primitive, Role, Sampler, Scene, Texture},
 };
 
-/// Devices and renderers that wait for a test. Not in a thread's own memory: drivers cannot be closed while that goes.
-static DEVICES: Mutex<Vec<Gpu>> = Mutex::new(Vec::new());
-static RENDERERS: Mutex<Vec<(Gpu, Renderer)>> = Mutex::new(Vec::new());
+/// Devices that wait for a test, with their renderers. Not in a thread's own memory: drivers cannot be closed while that
+/// goes.
+static DEVICES: Mutex<Vec<(Gpu, Option<Renderer>)>> = Mutex::new(Vec::new());
 
-/// A device that no other test uses meanwhile: of two threads that wait for one, each may take the other's answer.
-pub struct Lent(Gpu);
+/// A device that no other test uses meanwhile, with its renderer of four samples, whose pipelines serve all scenes.
+pub struct Lent {
+    gpu: Gpu,
+    renderer: RefCell<Option<Renderer>>,
+}
 
 impl Deref for Lent {
     type Target = Gpu;
 
     fn deref(&self) -> &Gpu {
-        &self.0
+        &self.gpu
     }
 }
 
@@ -32,7 +36,8 @@ impl Drop for Lent {
     fn drop(&mut self) {
         // One on which a test has failed serves no other.
         if !std::thread::panicking() {
-            DEVICES.lock().expect("no test panics while it gives a device back").push(self.0.clone());
+            let back = (self.gpu.clone(), self.renderer.take());
+            DEVICES.lock().expect("no test panics while it gives a device back").push(back);
         }
     }
 }
@@ -42,9 +47,10 @@ pub fn gpu() -> Lent {
     let waiting = DEVICES.lock().expect("no test panics while it takes a device").pop();
     let open = || {
         let name = std::env::var("HIKAGE_ADAPTER").ok();
-        Gpu::headless(name.as_deref()).unwrap_or_else(|e| panic!("{e}"))
+        (Gpu::headless(name.as_deref()).unwrap_or_else(|e| panic!("{e}")), None)
     };
-    Lent(waiting.unwrap_or_else(open))
+    let (gpu, renderer) = waiting.unwrap_or_else(open);
+    Lent { gpu, renderer: RefCell::new(renderer) }
 }
 
 /// The built-in character as her file says.
@@ -198,21 +204,14 @@ pub fn view(size: u32, distance: f32) -> View {
     }
 }
 
-/// Lends a renderer of four samples. A device has one, whose pipelines serve all scenes.
-pub fn with_renderer<T>(gpu: &Gpu, work: impl FnOnce(&mut Renderer) -> T) -> T {
-    let waiting = || RENDERERS.lock().expect("no test panics while it takes a renderer");
-    let found = {
-        let mut waiting = waiting();
-        waiting.iter().position(|(of, _)| of.device == gpu.device).map(|i| waiting.swap_remove(i))
-    };
-    let (of, mut renderer) = found.unwrap_or_else(|| (gpu.clone(), Renderer::new(gpu).expect("a renderer")));
-    let result = work(&mut renderer);
-    waiting().push((of, renderer));
-    result
+/// Works with the renderer of a device.
+pub fn with_renderer<T>(gpu: &Lent, work: impl FnOnce(&mut Renderer) -> T) -> T {
+    let mut renderer = gpu.renderer.borrow_mut();
+    work(renderer.get_or_insert_with(|| Renderer::new(gpu).expect("a renderer")))
 }
 
 /// Renders a scene with four samples.
-pub fn render(gpu: &Gpu, scene: &Scene, view: &View) -> Image {
+pub fn render(gpu: &Lent, scene: &Scene, view: &View) -> Image {
     with_renderer(gpu, |renderer| {
         let mut uploaded = renderer.upload(scene).expect("an upload");
         renderer.render(&mut uploaded, view).expect("a picture")

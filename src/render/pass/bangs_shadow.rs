@@ -75,7 +75,7 @@ pub(crate) struct BangsShadowInputs<'a> {
 impl BangsMap {
     /// A map for a head of this place and size. A texel is a third of the soft edge; the shader's box is three wide.
     pub fn new(gpu: &Gpu, reduce: &BangsNearPass, bangs: Bangs, middle: Vec3, half: f32, lids: bool) -> Self {
-        let texel = bangs.soft_width_m.clamp(0.0005, 0.05) / 3.0;
+        let texel = bangs.soft_width_m / 3.0;
         let side = ((2.0 * half / texel).ceil() as u32).clamp(32, 1024);
         let count = if lids { 2 } else { 1 };
         let view = map_texture(gpu, side, count);

@@ -26,10 +26,13 @@ pub(crate) const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth3
 /// Colour of frames that are finished by [`post`], and of light.
 pub(crate) const HDR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
 
+/// Depth format of the colour pass where the device has it.
+pub(crate) const DEPTH_STENCIL_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32FloatStencil8;
+
 /// Depth format of the colour pass.
 pub(crate) fn color_depth_format(gpu: &Gpu) -> wgpu::TextureFormat {
     if gpu.device.features().contains(wgpu::Features::DEPTH32FLOAT_STENCIL8) {
-        wgpu::TextureFormat::Depth32FloatStencil8
+        DEPTH_STENCIL_FORMAT
     } else {
         DEPTH_FORMAT
     }

@@ -60,7 +60,7 @@ impl ShadowMap {
         if self.layers.len() as u32 >= wanted {
             return false;
         }
-        self.view = map_texture(gpu, self.settings.side.clamp(128, 4096), wanted);
+        self.view = map_texture(gpu, self.settings.side, wanted);
         let layer = |base_array_layer| {
             self.view.texture().create_view(&wgpu::TextureViewDescriptor {
                 dimension: Some(wgpu::TextureViewDimension::D2),
@@ -85,7 +85,7 @@ impl ShadowMap {
             up: to_light.cross(right),
             to_light,
             scale: 1.0 / width,
-            bias: self.settings.bias_texels.clamp(0.0, 8.0) * texel,
+            bias: self.settings.bias_texels * texel,
             // Three taps of a texel each span the edge.
             spread: (self.settings.soft_width_m / (3.0 * width)).max(texel),
             middle,

@@ -10,6 +10,7 @@ mod failure;
 mod gallery;
 mod inspect;
 mod look;
+mod looks;
 mod output;
 mod render;
 mod sdf;
@@ -60,6 +61,8 @@ enum Command {
     Gallery(gallery::Args),
     /// Write a look file with every number of the anime look, to start from. Needs no GPU.
     Look(look::Args),
+    /// List what a look file can set: every section with its fields, ranges and defaults. Needs no GPU.
+    Looks(looks::Args),
     /// Author threshold maps of painted face shadows.
     Sdf(sdf::Args),
     /// Paint maps for looks by rule. Needs no GPU.
@@ -113,6 +116,7 @@ fn run(command: Command) -> Result<(), Failure> {
         Command::Sheet(args) => sheet::run(&args),
         Command::Gallery(args) => gallery::run(&args),
         Command::Look(args) => look::run(&args),
+        Command::Looks(args) => looks::run(&args),
         Command::Sdf(args) => sdf::run(&args),
         Command::Texture(args) => texture::run(&args),
         Command::Inspect(args) => inspect::run(&args),

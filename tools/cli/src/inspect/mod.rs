@@ -10,11 +10,13 @@ use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
 use hikage::import::{image, load};
+use hikage::scene::Scene;
 use serde::Serialize;
 
+use crate::args::LookName;
 use crate::failure::Failure;
 use crate::output::{print, print_json};
-use crate::setup::read_small;
+use crate::setup::{self, read_small};
 
 /// Arguments of `hikage inspect`.
 #[derive(clap::Args)]
@@ -24,6 +26,7 @@ Examples:
   hikage inspect girl.vrm --json | jq .materials
   hikage inspect mask.png
   hikage inspect effect.wgsl
+  hikage inspect girl.vrm --look anime --wgsl Face
 
 The ending of the name decides what a file is; without a known one, its first bytes do.")]
 pub(crate) struct Args {
@@ -32,6 +35,12 @@ pub(crate) struct Args {
     /// Print JSON.
     #[arg(long)]
     json: bool,
+    /// Print the shaders of a material, by its name: the generated page, then the text of each pass.
+    #[arg(long, value_name = "MATERIAL", conflicts_with = "json")]
+    wgsl: Option<String>,
+    /// With --wgsl: plain, anime or a look file.
+    #[arg(long, value_name = "plain|anime|FILE.look.toml", value_parser = crate::args::look, requires = "wgsl")]
+    look: Option<LookName>,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -61,6 +70,11 @@ struct ShaderSummary {
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let path = &args.file;
     match kind(path)? {
+        Kind::Model if args.wgsl.is_some() => {
+            let mut scene = load(path)?;
+            setup::apply_look(args.look.as_ref(), Some(path), &mut scene)?;
+            print(&shaders(&scene, args.wgsl.as_deref().unwrap_or_default())?)
+        }
         Kind::Model => {
             let scene = load(path)?;
             let bytes = std::fs::metadata(path).map(|m| m.len()).unwrap_or(0);
@@ -105,6 +119,22 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             ))
         }
     }
+}
+
+/// What draws a material, as the driver gets it.
+fn shaders(scene: &Scene, name: &str) -> Result<String, Failure> {
+    let Some(material) = scene.materials.iter().position(|m| m.name == name) else {
+        let names: Vec<&str> = scene.materials.iter().map(|m| m.name.as_str()).collect();
+        return Err(Failure::input(format!("there is no material {name:?}; there are: {}", names.join(", "))));
+    };
+    let mut text = String::new();
+    for shader in hikage::shaders::of_material(scene, material)? {
+        text.push_str(&format!("// ==== pass {}: its page\n\n{}\n", shader.pass, shader.page));
+        text.push_str(&format!("// ==== pass {}: the whole text, {} bytes\n\n", shader.pass, shader.text.len()));
+        text.push_str(&shader.text);
+        text.push('\n');
+    }
+    Ok(text)
 }
 
 fn kind(path: &Path) -> Result<Kind, Failure> {

@@ -170,18 +170,18 @@ fn the_anime_look_is_as_before() {
     studio.distance_m = None;
     studio.light_deg = [-60.0, 25.0];
     for (name, channel) in [
-        ("face-shadow", Channel::FaceShadow),
-        ("shade-ramp", Channel::ShadeRamp),
-        ("self-shadow", Channel::SelfShadow),
-        ("face-paint", Channel::FacePaint),
-        ("highlight", Channel::Highlight),
-        ("bangs-shadow", Channel::BangsShadow),
-        ("layer", Channel::Layer),
-        ("depth-rim", Channel::DepthRim),
-        ("eyes-through", Channel::EyesThrough),
+        ("face-shadow", Channel::Look("face-shadow")),
+        ("shade-ramp", Channel::Look("shade-ramp")),
+        ("self-shadow", Channel::Look("self-shadow")),
+        ("face-paint", Channel::Look("face-paint")),
+        ("highlight", Channel::Look("highlight")),
+        ("bangs-shadow", Channel::Look("bangs-shadow")),
+        ("layer", Channel::Look("layer")),
+        ("depth-rim", Channel::Look("depth-rim")),
+        ("eyes-through", Channel::Look("eyes-through")),
     ] {
         studio.channel = channel;
-        let framing = if matches!(channel, Channel::Highlight | Channel::DepthRim | Channel::SelfShadow) {
+        let framing = if matches!(channel, Channel::Look("highlight") | Channel::Look("depth-rim") | Channel::Look("self-shadow")) {
             Framing::Portrait
         } else {
             Framing::Face

@@ -1,0 +1,177 @@
+//! A look from outside: an application's section has its keys in look files, its shader and its channel like ours.
+
+use hikage::material::{Block, Material, Section, Surroundings, TextureRef, register};
+use hikage::scene::{Image, Scene};
+use hikage::{Channel, Gpu, LookFile, Renderer, View};
+
+use crate::support::{gpu, scene, sphere, two_tone, view};
+
+macro_rules! tint {
+    ($name:ident, $key:literal, $text:expr) => {
+        hikage::section! {
+            /// A tint from outside.
+            #[derive(Copy)]
+            $name = $key { channel: Some((concat!($key, "-share"), "Share of the tint.")), wgsl: Some($text) }
+            {
+                /// Colour, linear.
+                color: [f32; 3] = [1.0, 0.0, 0.0], in 0.0..=1.0;
+                /// Share of it.
+                share: f32 = 1.0, in 0.0..=1.0;
+                /// Where it is, red channel.
+                mask: Option<TextureRef> = None, read LINEAR;
+            }
+            presets {
+                /// Half of it.
+                half { share: 0.5 }
+            }
+        }
+
+        impl Section for $name {
+            fn put(&self, gpu: &mut Block<'_>, _: &Surroundings<'_>) {
+                gpu.put("color", self.color);
+                gpu.put("share", self.share);
+            }
+        }
+    };
+}
+
+tint!(
+    OwnTint,
+    "own_tint",
+    "import package::bind::shown::shown;
+import package::bind::surface::{Shaded, Surface};
+import package::bind::uv::{UvTransform, texture_uv};
+import package::material::{material, own_tint_mask, own_tint_mask_sampler};
+
+struct OwnTint {
+    color: vec3f,
+    share: f32,
+    mask_uv: UvTransform,
+}
+
+fn own_tint_shine(s: Surface, shaded: Shaded) -> Shaded {
+    var l = shaded;
+    var share = material.own_tint.share;
+    @if(own_tint_mask) share *= textureSample(
+        own_tint_mask, own_tint_mask_sampler, texture_uv(s.uv, material.own_tint.mask_uv)
+    ).r;
+    l.direct = mix(l.direct, material.own_tint.color, share);
+    l.ambient *= 1.0 - share;
+    @if(channel_own_tint_share) shown = vec3f(share);
+    return l;
+}
+"
+);
+
+tint!(
+    BrokenSyntax,
+    "broken_syntax",
+    "struct BrokenSyntax { color: vec3f, share: f32 }
+
+fn broken_syntax_shine(s: Surface, l: Shaded) -> Shaded {
+    return l +;
+}
+"
+);
+
+tint!(
+    BrokenType,
+    "broken_type",
+    "import package::bind::surface::{Shaded, Surface};
+import package::material::material;
+
+struct BrokenType {
+    color: vec3f,
+    share: f32,
+}
+
+fn broken_type_shine(s: Surface, l: Shaded) -> Shaded {
+    var changed = l;
+    changed.direct = material.broken_type.share;
+    return changed;
+}
+"
+);
+
+tint!(
+    BrokenNumbers,
+    "broken_numbers",
+    "struct BrokenNumbers {
+    color: vec3f,
+    shares: f32,
+}
+"
+);
+
+/// A ball in front of the camera, by a renderer that was made after the registration.
+fn picture(gpu: &Gpu, scene: &Scene, view: &View) -> Image {
+    let mut renderer = Renderer::new(gpu).expect("a renderer");
+    let mut uploaded = renderer.upload(scene).expect("an upload");
+    renderer.render(&mut uploaded, view).expect("a picture")
+}
+
+#[test]
+fn a_section_of_an_application_draws_by_its_look_file_and_has_a_channel() {
+    let gpu = gpu();
+    let stale = Renderer::new(&gpu);
+    register::<OwnTint>().expect("valid");
+    register::<OwnTint>().expect("the same again");
+    let mut scene = scene(vec![(sphere(0.5, 32, 64), Material { name: "Ball".to_owned(), ..two_tone() })]);
+    let file = |text: &str| LookFile::parse("own.look.toml", &format!("base = \"plain\"\n{text}"));
+    let name = "Ball";
+    let set = format!("[material.{name:?}]\nown_tint = {{ preset = \"half\", color = \"#00ff00\" }}\n");
+    file(&set).expect("TOML").apply(&mut scene, None).expect("known keys");
+    let tint = scene.materials[0].own::<OwnTint>().expect("the section");
+    assert_eq!((tint.share, tint.color), (0.5, [0.0, 1.0, 0.0]));
+
+    let channel = Channel::from_name("own_tint-share").expect("a channel");
+    let shown = picture(&gpu, &scene, &View { channel, ..view(64, 2.0) });
+    let middle = (32 * 64 + 32) * 4;
+    // Half of linear white.
+    assert_eq!(shown.pixels[middle..middle + 3], [188; 3]);
+    scene.materials[0].own_mut::<OwnTint>().expect("the section").share = 1.0;
+    let green = picture(&gpu, &scene, &view(64, 2.0));
+    let error = stale.expect("a renderer").upload(&scene).expect_err("made before").to_string();
+    assert!(error.contains("own_tint") && error.contains("register"), "{error}");
+    assert_eq!(green.pixels[middle..middle + 3], [0, 255, 0]);
+
+    let wrong = format!("[material.{name:?}.own_tint]\nshare = 3\n");
+    let error = file(&wrong).expect("TOML").apply(&mut scene, None).expect_err("out of its range").to_string();
+    assert!(error.contains("own_tint.share") && error.contains("is 3") && error.contains("0..1"), "{error}");
+    let unknown = format!("[material.{name:?}.own_tint]\nsahre = 1\n");
+    let error = file(&unknown).expect("TOML").apply(&mut scene, None).expect_err("no such key").to_string();
+    assert!(error.contains("the nearest is \"share\""), "{error}");
+    file(&format!("[material.{name:?}]\nown_tint = false\n")).expect("TOML").apply(&mut scene, None).expect("off");
+    assert!(scene.materials[0].own::<OwnTint>().is_none());
+}
+
+#[test]
+fn wrong_wgsl_is_one_error_with_file_and_line() {
+    for (error, words) in [
+        (register::<BrokenSyntax>().expect_err("syntax"), ["broken_syntax.wgsl", "line 4"]),
+        (register::<BrokenType>().expect_err("type"), ["broken_type.wgsl", "line 11"]),
+        (register::<BrokenNumbers>().expect_err("members"), ["broken_numbers.wgsl", "no member share"]),
+    ] {
+        let message = error.to_string();
+        assert!(words.iter().all(|word| message.contains(word)), "{message}");
+        assert!(!message.contains('\n'), "{message}");
+    }
+}
+
+#[test]
+fn names_that_are_taken_are_refused() {
+    hikage::section! {
+        /// Has the name of one of ours.
+        #[derive(Copy)]
+        Other = "sparkle" { wgsl: Some("struct Other { x: f32 }") }
+        { /// A number.
+          x: f32 = 0.0, in 0.0..=1.0; }
+    }
+    impl Section for Other {
+        fn put(&self, gpu: &mut Block<'_>, _: &Surroundings<'_>) {
+            gpu.put("x", self.x);
+        }
+    }
+    let error = register::<Other>().expect_err("taken").to_string();
+    assert!(error.contains("sparkle") && error.contains("choose another"), "{error}");
+}

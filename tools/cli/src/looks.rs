@@ -1,0 +1,118 @@
+//! `hikage looks`: every section that a material can have, with its fields, ranges and defaults.
+
+use hikage::material::{About, Field, Kind, all, shown_range};
+use toml::{Table, Value};
+
+use crate::failure::Failure;
+use crate::output::print;
+
+/// Arguments of `hikage looks`.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Examples:
+  hikage looks
+  hikage looks gem
+  hikage looks --markdown > looks.md
+
+A look file sets any of these, by role or by material: `hikage look --help`.")]
+pub(crate) struct Args {
+    /// One section alone, whole.
+    section: Option<String>,
+    /// Print Markdown.
+    #[arg(long)]
+    markdown: bool,
+}
+
+pub(crate) fn run(args: &Args) -> Result<(), Failure> {
+    let sections: Vec<&About> = match &args.section {
+        Some(name) => {
+            let known: Vec<&About> = all().collect();
+            let found = known.iter().find(|a| a.key == *name).copied();
+            let names: Vec<&str> = known.iter().map(|a| a.key).collect();
+            let none = || Failure::input(format!("there is no section {name:?}; there are: {}", names.join(", ")));
+            vec![found.ok_or_else(none)?]
+        }
+        None => all().collect(),
+    };
+    let is_whole = args.section.is_some();
+    let text: String =
+        sections.iter().map(|about| if args.markdown { markdown(about) } else { plain(about, is_whole) }).collect();
+    print(&text)
+}
+
+/// A field with its path, defaults and range.
+struct Row {
+    path: String,
+    default: String,
+    range: String,
+    doc: &'static str,
+}
+
+fn rows(fields: &[Field], defaults: &Table, before: &str, list: &mut Vec<Row>) {
+    for field in fields {
+        let path = format!("{before}{}", field.name);
+        let default = defaults.get(field.name);
+        let range = match field.kind {
+            Kind::Number { low, high } => shown_range(low, high),
+            Kind::Texture(_) => "texture".to_owned(),
+            Kind::Part(_) => "table".to_owned(),
+            Kind::Plain => String::new(),
+        };
+        list.push(Row { default: default.map_or_else(|| "none".to_owned(), shown), range, doc: field.doc, path: path.clone() });
+        if let Kind::Part(inner) = field.kind {
+            let none = Table::new();
+            rows(inner, default.and_then(Value::as_table).unwrap_or(&none), &format!("{path}."), list);
+        }
+    }
+}
+
+/// A value as short as a look file may write it.
+fn shown(value: &Value) -> String {
+    match value {
+        // What was a number of 32 bits has no more digits than those.
+        Value::Float(x) => format!("{}", *x as f32),
+        Value::Array(list) => format!("[{}]", list.iter().map(shown).collect::<Vec<_>>().join(", ")),
+        Value::Table(_) => "see below".to_owned(),
+        other => other.to_string(),
+    }
+}
+
+fn first_sentence(doc: &str) -> String {
+    let doc = doc.split_whitespace().collect::<Vec<_>>().join(" ");
+    doc.split_inclusive(". ").next().unwrap_or_default().trim_end().trim_end_matches('.').to_owned()
+}
+
+fn plain(about: &About, is_whole: bool) -> String {
+    let mut list = Vec::new();
+    rows(about.fields, &(about.defaults)(), "", &mut list);
+    let doc = if is_whole {
+        about.doc.lines().map(str::trim).collect::<Vec<_>>().join("\n  ").trim_end().to_owned()
+    } else {
+        first_sentence(about.doc)
+    };
+    let mut text = format!("{}\n  {doc}\n", about.key);
+    if !about.presets.is_empty() {
+        text.push_str(&format!("  presets: {}\n", about.presets.iter().map(|p| p.name).collect::<Vec<_>>().join(", ")));
+    }
+    if let Some((name, shows)) = about.channel {
+        text.push_str(&format!("  channel {name}: {shows}\n"));
+    }
+    let width = |column: fn(&Row) -> &str| list.iter().map(|r| column(r).chars().count()).max().unwrap_or(0);
+    let (path, range, default) = (width(|r| &r.path), width(|r| &r.range), width(|r| &r.default).min(30));
+    for row in &list {
+        let Row { path: p, range: r, default: d, doc } = row;
+        text.push_str(&format!("    {p:path$}  {r:range$}  {d:default$}  {}\n", first_sentence(doc)));
+    }
+    text + "\n"
+}
+
+fn markdown(about: &About) -> String {
+    let mut list = Vec::new();
+    rows(about.fields, &(about.defaults)(), "", &mut list);
+    let mut text = format!("### `{}`\n\n{}.\n\n", about.key, first_sentence(about.doc));
+    text.push_str("| field | range | default | |\n|---|---|---|---|\n");
+    for Row { path, range, default, doc } in list {
+        text.push_str(&format!("| `{path}` | {range} | {default} | {} |\n", first_sentence(doc).replace('|', "\\|")));
+    }
+    text + "\n"
+}
