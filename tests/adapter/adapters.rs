@@ -8,7 +8,7 @@ use hikage::{
     scene::{Image, Scene},
 };
 
-use crate::support::{cube, render, scene, sphere, square, texture, two_tone, view};
+use crate::support::{Lent, cube, render, scene, sphere, square, texture, two_tone, view};
 
 /// Inside, two colour steps, and no more than one over a flat tile (values at the middle of a step round either way).
 /// Along edges one of four samples may fall to the other side, in small groups.
@@ -50,11 +50,11 @@ fn all_adapters_draw_the_same() {
 }
 
 /// One of each name: a driver may be listed twice.
-fn gpus() -> Vec<Gpu> {
+fn gpus() -> Vec<Lent> {
     let mut names: Vec<String> = Gpu::adapters().into_iter().map(|a| a.name).collect();
     names.sort();
     names.dedup();
-    names.iter().map(|name| Gpu::headless(Some(name)).unwrap_or_else(|e| panic!("{name}: {e}"))).collect()
+    names.iter().map(|name| Lent::of(name)).collect()
 }
 
 fn scenes() -> Vec<(&'static str, Scene, View)> {

@@ -3,7 +3,7 @@
 use glam::Vec3;
 use hikage::material::{Base, DepthRim, Material, Shading, Toon};
 use hikage::scene::Image;
-use hikage::{Background, Channel, Gpu, View, color::Srgb};
+use hikage::{Background, Channel, View, color::Srgb};
 
 use crate::support::{Lent, gpu, pixel, render, scene, sphere, square, view};
 

@@ -8,7 +8,7 @@ use hikage::material::{AngleMapping, FaceShadow};
 use hikage::motion::Pose;
 use hikage::scene::{Ambient, Framing, HumanBone, Image, Role, Scene};
 use hikage::sdf::FaceMap;
-use hikage::{Gpu, Look, Renderer, View};
+use hikage::{Look, Renderer, View};
 
 use crate::support::{self, Lent, gpu};
 

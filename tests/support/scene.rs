@@ -22,6 +22,16 @@ static DEVICES: Mutex<Vec<(Gpu, Option<Renderer>)>> = Mutex::new(Vec::new());
 pub struct Lent {
     gpu: Gpu,
     renderer: RefCell<Option<Renderer>>,
+    /// Whether another test may have it afterwards.
+    is_pooled: bool,
+}
+
+impl Lent {
+    /// A device of this adapter alone.
+    pub fn of(name: &str) -> Self {
+        let gpu = Gpu::headless(Some(name)).unwrap_or_else(|e| panic!("{name}: {e}"));
+        Self { gpu, renderer: RefCell::new(None), is_pooled: false }
+    }
 }
 
 impl Deref for Lent {
@@ -35,7 +45,7 @@ impl Deref for Lent {
 impl Drop for Lent {
     fn drop(&mut self) {
         // One on which a test has failed serves no other.
-        if !std::thread::panicking() {
+        if !std::thread::panicking() && self.is_pooled {
             let back = (self.gpu.clone(), self.renderer.take());
             DEVICES.lock().expect("no test panics while it gives a device back").push(back);
         }
@@ -50,7 +60,7 @@ pub fn gpu() -> Lent {
         (Gpu::headless(name.as_deref()).unwrap_or_else(|e| panic!("{e}")), None)
     };
     let (gpu, renderer) = waiting.unwrap_or_else(open);
-    Lent { gpu, renderer: RefCell::new(renderer) }
+    Lent { gpu, renderer: RefCell::new(renderer), is_pooled: true }
 }
 
 /// The built-in character as her file says.

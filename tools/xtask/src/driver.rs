@@ -15,6 +15,13 @@ const OVERRIDES: [&str; 2] = ["VK_DRIVER_FILES", "VK_ICD_FILENAMES"];
 
 const APT_PACKAGES: [&str; 2] = ["libvulkan1", "mesa-vulkan-drivers"];
 
+/// Where browsers bring SwiftShader, a second software driver.
+const SWIFTSHADER: [&str; 3] = [
+    "/usr/lib/chromium/libvk_swiftshader.so",
+    "/usr/lib/chromium-browser/libvk_swiftshader.so",
+    "/opt/google/chrome/libvk_swiftshader.so",
+];
+
 const REMEDY: &str = "\
 no Vulkan driver was found, and it cannot be installed from here; please run
 
@@ -47,8 +54,13 @@ impl Vulkan {
         command.envs(self.added.iter().map(|(name, value)| (name, value)));
     }
 
+    /// The same with SwiftShader beside the others.
+    pub(crate) fn with_swiftshader(self, library: &Path) -> Outcome<Self> {
+        Ok(self.with_driver(&manifest(library)?))
+    }
+
     /// The same with one more driver, by its manifest.
-    pub(crate) fn with_driver(self, manifest: &Path) -> Self {
+    fn with_driver(self, manifest: &Path) -> Self {
         let is_set = |name: &&str| !self.unset.contains(name) && std::env::var_os(name).is_some_and(|v| !v.is_empty());
         // The loader looks at the second variable only where the first ones are missing.
         let name = OVERRIDES.into_iter().find(is_set).unwrap_or("VK_ADD_DRIVER_FILES");
@@ -58,6 +70,23 @@ impl Vulkan {
         let added = std::env::join_paths(paths).ok().map(|value| (name, value));
         Self { added, ..self }
     }
+}
+
+/// SwiftShader's library, where a browser brought it.
+pub(crate) fn swiftshader() -> Option<&'static Path> {
+    SWIFTSHADER.into_iter().map(Path::new).find(|library| library.is_file())
+}
+
+/// Writes the file that names the library to the Vulkan loader.
+fn manifest(library: &Path) -> Outcome<PathBuf> {
+    let path = cargo::target().join("swiftshader_icd.json");
+    let text = format!(
+        r#"{{"file_format_version": "1.0.0", "ICD": {{"library_path": "{}", "api_version": "1.1.0"}}}}"#,
+        library.display()
+    );
+    std::fs::write(&path, text)
+        .and_then(|()| std::path::absolute(&path))
+        .map_err(|e| Stop(1, format!("{}: {e}", path.display())))
 }
 
 /// Finds a driver, installing Mesa's where that can be done without asking.

@@ -7,6 +7,7 @@ mod demo;
 mod driver;
 mod goldens;
 mod lint;
+mod same;
 mod test;
 mod vrm_check;
 
@@ -24,6 +25,9 @@ cargo xtask TASK
   goldens                   run the golden tests and list what differs
   goldens --bless NAME…     accept these pictures, after looking at them
   goldens --bless --all     accept all pictures that differ
+  same OLD NEW [--only TEXT] [--driver lavapipe|swiftshader]
+                            draw some 400 views on both drivers with two builds of `hikage` and compare them byte by
+                            byte; the pictures of a build are kept, so that OLD is drawn once only
   compare-references [DIR] [--write OUTDIR] [--only TEXT] [--json]
                             compare with pictures of another renderer (DIR: ../shared/models)
   vrm-check                 the built-in character in glTF-Validator and three-vrm (needs npm and Chromium)
@@ -48,7 +52,7 @@ fn main() {
 fn run(task: &str, args: &[String]) -> Outcome {
     // Tasks work from the repository's folder, wherever they are called; a path that they are given stays what it was.
     let args: Vec<String> = match task {
-        "demo" | "badinput" | "compare-references" => args.iter().map(|arg| full_path(arg)).collect(),
+        "demo" | "same" | "badinput" | "compare-references" => args.iter().map(|arg| full_path(arg)).collect(),
         _ => args.to_vec(),
     };
     let root = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../..");
@@ -59,6 +63,7 @@ fn run(task: &str, args: &[String]) -> Outcome {
         "test" => test::run(&args),
         "lint" => lint::run(),
         "goldens" => goldens::run(&args),
+        "same" => same::run(&args),
         "compare-references" => {
             let mut command = vec!["run", "--quiet", "--release", "-p", "hikage-cli", "--", "compare-references"];
             if args.first().is_none_or(|first| first.starts_with('-')) {

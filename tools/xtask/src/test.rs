@@ -1,20 +1,11 @@
 //! `cargo xtask test`: all tests on the default adapter, then those of pictures on a second driver where one is found.
 
-use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use crate::driver::Vulkan;
 use crate::{Outcome, Stop, apt, cargo, driver, with};
 
 /// A virtual X server and what winit opens at run time, for tests/window.rs.
 const WINDOW_PACKAGES: [&str; 5] = ["xvfb", "libxkbcommon-x11-0", "libx11-xcb1", "libxcursor1", "libxi6"];
-
-/// Where browsers bring SwiftShader, a second software driver.
-const SWIFTSHADER: [&str; 3] = [
-    "/usr/lib/chromium/libvk_swiftshader.so",
-    "/usr/lib/chromium-browser/libvk_swiftshader.so",
-    "/opt/google/chrome/libvk_swiftshader.so",
-];
 
 /// Test modules of pictures that are accepted by name; all stand in binaries named `pictures`.
 pub(crate) const GOLDENS: [&str; 3] = ["golden::", "golden_looks::", "golden_character::"];
@@ -31,9 +22,16 @@ pub(crate) fn run(args: &[String]) -> Outcome {
     let vulkan = driver::ensure()?;
     ensure_virtual_screen();
     cargo::run_with(&with(&["test", "--workspace"], args), &vulkan, &QUICK_LLVMPIPE)?;
-    match swiftshader() {
+    match driver::swiftshader() {
         // Arguments choose tests of their own.
-        Some(library) if args.is_empty() => on_swiftshader(library, vulkan),
+        Some(library) if args.is_empty() => {
+            println!("== on SwiftShader, {}", library.display());
+            let vulkan = vulkan.with_swiftshader(library)?;
+            // Of the whole workspace, so that nothing is built anew.
+            let binaries = ["test", "--workspace", "--test", "adapter", "--test", "pictures", "--"];
+            let tests = [&binaries[..], &ON_SECOND_DRIVER[..], &GOLDENS[..]].concat();
+            cargo::run_with(&tests, &vulkan, &[("HIKAGE_ADAPTER", "swiftshader")])
+        }
         _ => Ok(()),
     }
 }
@@ -48,31 +46,6 @@ fn ensure_virtual_screen() {
     if let Err(Stop(_, message)) = apt::install(&WINDOW_PACKAGES) {
         eprintln!("xtask: {message}; the window test will not run");
     }
-}
-
-fn swiftshader() -> Option<&'static Path> {
-    SWIFTSHADER.into_iter().map(Path::new).find(|library| library.is_file())
-}
-
-fn on_swiftshader(library: &Path, vulkan: Vulkan) -> Outcome {
-    println!("== on SwiftShader, {}", library.display());
-    let vulkan = vulkan.with_driver(&manifest(library)?);
-    // Of the whole workspace, so that nothing is built anew.
-    let binaries = ["test", "--workspace", "--test", "adapter", "--test", "pictures", "--"];
-    let tests = [&binaries[..], &ON_SECOND_DRIVER[..], &GOLDENS[..]].concat();
-    cargo::run_with(&tests, &vulkan, &[("HIKAGE_ADAPTER", "swiftshader")])
-}
-
-/// Writes the file that names the library to the Vulkan loader.
-fn manifest(library: &Path) -> Outcome<PathBuf> {
-    let path = cargo::target().join("swiftshader_icd.json");
-    let text = format!(
-        r#"{{"file_format_version": "1.0.0", "ICD": {{"library_path": "{}", "api_version": "1.1.0"}}}}"#,
-        library.display()
-    );
-    std::fs::write(&path, text)
-        .and_then(|()| std::path::absolute(&path))
-        .map_err(|e| Stop(1, format!("{}: {e}", path.display())))
 }
 
 #[cfg(test)]
