@@ -8,9 +8,9 @@ use hikage::material::{
     InnerLines, Material, Outline, OutlineWidth, Shading, ShapedHighlight, Sparkle, Stocking, TextureRef, Toon,
 };
 use hikage::scene::{Ambient, Bloom, Image, Post, PunctualLight, Scene, ToneCurve};
-use hikage::{Background, Gpu, View};
+use hikage::{Background, View};
 
-use crate::support::{cube, gpu, render, scene, sphere, square, texture, two_tone, view, with_renderer};
+use crate::support::{Lent, cube, gpu, render, scene, sphere, square, texture, two_tone, view, with_renderer};
 
 /// Another driver may round edges and ramps differently, never more.
 const TOLERANCE: Tolerance = Tolerance { channel: 6, outliers: 0.006, blob: 16, drift: 1.0 };
