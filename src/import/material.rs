@@ -1,8 +1,6 @@
 //! Materials: what glTF says of all of them, then the one shading that each has.
 
-use crate::material::{
-    Alpha, AlphaMode, Base, Emission, Material, NormalMap, Origin, Shading, Substance, TextureRef,
-};
+use crate::material::{Alpha, AlphaMode, Base, Emission, Material, NormalMap, Origin, Shading, Substance, TextureRef};
 
 use super::fault::{Result, quoted};
 use super::json::Json;

@@ -12,9 +12,9 @@ use super::{
     presets,
     values::{merge, nearest, no_such, not_finite, units},
 };
-use crate::material::{About, AlphaMode, Field, Kind, Material, Part, Read, all, out_of_range, registered};
 use crate::color::LinearRgb;
 use crate::import::{Limits, image};
+use crate::material::{About, AlphaMode, Field, Kind, Material, Part, Read, all, out_of_range, registered};
 use crate::scene::{Ambient, DirectionalLight, Image, Lights, Role, Sampler, Scene, Texture, Wrap};
 use crate::sdf::{FaceLayout, FaceMap, Texels};
 use crate::{Error, Result};
@@ -445,7 +445,8 @@ fn add_texture(scene: &mut Scene, image: Image, read: Read) -> usize {
 }
 
 fn lights(section: &LightSection) -> Lights {
-    let towards = |[yaw, pitch]: [f32; 2]| glam::Vec3::new(yaw.sin() * pitch.cos(), pitch.sin(), yaw.cos() * pitch.cos());
+    let towards =
+        |[yaw, pitch]: [f32; 2]| glam::Vec3::new(yaw.sin() * pitch.cos(), pitch.sin(), yaw.cos() * pitch.cos());
     Lights {
         directional: DirectionalLight {
             to_light: section.direction_rad.map_or(DirectionalLight::default().to_light, towards),

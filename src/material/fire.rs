@@ -6,9 +6,9 @@ use crate::render::layout::Block;
 crate::section! {
     /// Heat is the drawn shape times noise that rises through it; where it is low nothing is left, and the colour goes by the
     /// same number. It is moved by time alone, begins anew without a seam after each period, and shines in its own light.
-    /// The material must be blended; its base colour and texture do nothing.
+    /// The material must be blended; its base colour, texture and outline do nothing.
     #[derive(Copy)]
-    Fire = "fire" { is_model: true, unlit: true, on_line: true, channel: Some(("fire", "Heat of fire.")) }
+    Fire = "fire" { is_model: true, unlit: true, channel: Some(("fire", "Heat of fire.")) }
     {
         /// Shape as heat, red channel, linear: 1 in the heart, 0 outside; v grows downwards from the tip. Without it, one
         /// tongue as wide as the texture coordinates.

@@ -12,8 +12,8 @@ pub use alpha::{Alpha, AlphaMode};
 pub use authored::{Authored, Substance};
 pub use own::{OwnSection, register};
 pub use section::{
-    About, Declared, Encoding, Field, Fields, Kind, Leaf, Options, Part, Preset, Read, Section, Surroundings, UNBOUNDED,
-    Walk, shown_range,
+    About, Declared, Encoding, Field, Fields, Kind, Leaf, Options, Part, Preset, Read, Section, Surroundings,
+    UNBOUNDED, Walk, shown_range,
 };
 pub use texture_ref::{TextureRef, UvTransform};
 
@@ -109,7 +109,10 @@ impl Material {
     }
 
     /// Visits every texture: section, path of the field, field, value.
-    pub(crate) fn each_texture(&mut self, visit: &mut dyn FnMut(&'static About, &[&'static str], Read, &mut TextureRef)) {
+    pub(crate) fn each_texture(
+        &mut self,
+        visit: &mut dyn FnMut(&'static About, &[&'static str], Read, &mut TextureRef),
+    ) {
         for section in self.sections_mut() {
             let about = section.about();
             section.walk_fields(&mut Walk::new(&mut |path, field, leaf| {

@@ -141,7 +141,8 @@ impl Section for Outline {
         on.set("outline_vertex_width", self.vertex_width);
     }
 
-    fn is_on(&self, _: &Surroundings<'_>) -> bool {
-        self.width.value() > 0.0
+    fn is_on(&self, of: &Surroundings<'_>) -> bool {
+        // Fire has no contour.
+        self.width.value() > 0.0 && !of.material.burns()
     }
 }

@@ -375,7 +375,8 @@ pub(crate) fn out_of_range(part: &mut dyn Part) -> Option<(String, String)> {
     let mut found = None;
     each_number(part, &mut |path, field, [low, high], value| {
         if !(low..=high).contains(&value) && found.is_none() {
-            found = Some((path.join("."), format!("{} is {value}; its range is {}", field.name, shown_range(low, high))));
+            found =
+                Some((path.join("."), format!("{} is {value}; its range is {}", field.name, shown_range(low, high))));
         }
         value
     });
@@ -387,10 +388,7 @@ pub(crate) fn clamp(part: &mut dyn Part) {
     each_number(part, &mut |_, _, [low, high], value| if value.is_nan() { low } else { value.clamp(low, high) });
 }
 
-fn each_number(
-    part: &mut dyn Part,
-    map: &mut dyn FnMut(&[&'static str], &'static Field, [f64; 2], f64) -> f64,
-) {
+fn each_number(part: &mut dyn Part, map: &mut dyn FnMut(&[&'static str], &'static Field, [f64; 2], f64) -> f64) {
     let mut visit = |path: &[&'static str], field: &'static Field, leaf: Leaf<'_>| {
         let Kind::Number { low, high } = field.kind else { return };
         let range = [low, high];
@@ -409,7 +407,13 @@ fn each_number(
 /// Ends of a range as tables and messages show them; what is beyond any use counts as no end.
 #[must_use]
 pub fn shown_range(low: f64, high: f64) -> String {
-    let end = |x: f64| if x.abs() >= UNBOUNDED { String::new() } else { x.to_string() };
+    let end = |x: f64| {
+        if x.abs() >= UNBOUNDED {
+            String::new()
+        } else {
+            x.to_string()
+        }
+    };
     format!("{}..{}", end(low), end(high))
 }
 

@@ -3,12 +3,15 @@
 use glam::Vec3;
 
 use super::geometry::{Geometry, Part};
+use super::gpu_scene::GpuScene;
 use super::material::Composition;
+use super::pass::{
+    DEPTH_STENCIL_FORMAT, Mark, Picture, bangs_shadow, eyes_through, fluff, glow, opaque, outline, prepass, shadow,
+    transparent,
+};
 use super::shaders::{Recipe, Shaders};
-use super::{Output, uv_metric};
-use super::pass::{DEPTH_STENCIL_FORMAT, Mark, Picture, bangs_shadow, eyes_through, fluff, glow, opaque, outline, prepass, shadow, transparent};
-use super::upload::GpuScene;
 use super::variants::{Drawn, Request};
+use super::{Output, uv_metric};
 use crate::material::{AlphaMode, Material, Surroundings};
 use crate::motion::Driven;
 use crate::scene::{Role, Scene};
@@ -147,9 +150,10 @@ pub(super) fn requests(
 
 /// What a material of a scene is drawn with, in every pass.
 pub(super) fn recipes_of(shaders: &Shaders, scene: &Scene, material: usize) -> Vec<Recipe> {
-    let compositions: Vec<Composition> = Surroundings::of_scene(scene, &Driven::of(scene), &uv_metric::metres_per_uv(scene))
-        .map(|of| Composition::new(shaders, &of))
-        .collect();
+    let compositions: Vec<Composition> =
+        Surroundings::of_scene(scene, &Driven::of(scene), &uv_metric::metres_per_uv(scene))
+            .map(|of| Composition::new(shaders, &of))
+            .collect();
     let picture = Picture { output: Output::default(), depth_format: DEPTH_STENCIL_FORMAT, channel: None };
     let draws = draws(scene, &Geometry::gather(scene).parts, true);
     let all = requests(scene, &draws, &compositions, &picture);
@@ -259,13 +263,7 @@ fn bind(pass: &mut wgpu::RenderPass<'_>, scene: &GpuScene, drawn: &Drawn) {
 
 /// [`record`] with the stencil's reference for `mark`, which holds the number of the character. A crowd larger than there
 /// are numbers shares each among neighbours.
-pub(crate) fn record_marked(
-    pass: &mut wgpu::RenderPass<'_>,
-    scene: &GpuScene,
-    draw: &Draw,
-    drawn: &Drawn,
-    mark: Mark,
-) {
+pub(crate) fn record_marked(pass: &mut wgpu::RenderPass<'_>, scene: &GpuScene, draw: &Draw, drawn: &Drawn, mark: Mark) {
     bind(pass, scene, drawn);
     let instances = scene.instance_rows.len() as u32;
     let block = if mark.is_numbered() {

@@ -66,12 +66,14 @@ impl Layout {
 
 /// The struct declarations of a WGSL text.
 pub(crate) fn struct_texts(text: &str) -> impl Iterator<Item = String> {
-    text.match_indices("struct ").filter(|(at, _)| *at == 0 || text.as_bytes()[at - 1] == b'\n').filter_map(|(at, _)| {
-        let end = text[at..].find("\n}").map(|e| at + e + 2);
-        let on_one_line = text[at..].lines().next().filter(|line| line.contains('}'));
-        let declared = on_one_line.or_else(|| text.get(at..end?))?;
-        Some(format!("{declared}\n"))
-    })
+    text.match_indices("struct ").filter(|(at, _)| *at == 0 || text.as_bytes()[at - 1] == b'\n').filter_map(
+        |(at, _)| {
+            let end = text[at..].find("\n}").map(|e| at + e + 2);
+            let on_one_line = text[at..].lines().next().filter(|line| line.contains('}'));
+            let declared = on_one_line.or_else(|| text.get(at..end?))?;
+            Some(format!("{declared}\n"))
+        },
+    )
 }
 
 /// Bytes of one WGSL struct that are being written.

@@ -5,7 +5,9 @@ mod clock;
 pub(crate) mod draw_list;
 mod frame;
 mod geometry;
+mod gpu_scene;
 pub(crate) mod layout;
+mod looks;
 mod made;
 pub(crate) mod material;
 pub(crate) mod pass;
@@ -24,7 +26,7 @@ mod tests;
 
 use std::time::Duration;
 
-pub use upload::{GpuMemory, GpuScene};
+pub use gpu_scene::{GpuMemory, GpuScene};
 pub use view::{Background, Channel, View};
 
 pub(crate) use clock::{Clock, Timed};
@@ -331,13 +333,7 @@ impl Renderer {
         }
     }
 
-    fn encode_glow(
-        &self,
-        encoder: &mut wgpu::CommandEncoder,
-        scene: &GpuScene,
-        post: Option<Post>,
-        clock: &Clock,
-    ) {
+    fn encode_glow(&self, encoder: &mut wgpu::CommandEncoder, scene: &GpuScene, post: Option<Post>, clock: &Clock) {
         let targets = self.post_targets.as_ref().filter(|_| post.is_some());
         if let (Some(PostTargets { light: Some((light, chain)), .. }), Some(bloom)) = (targets, &self.bloom) {
             let inputs = GlowInputs { scene, frame: self.color_frame_group(scene), light };

@@ -10,10 +10,10 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use wesl::{CompileOptions, ModulePath, NoMangler, ResolveError, Resolver};
 
 pub use super::check_wgsl::{MAX_WGSL_BYTES, ShaderSummary, check};
-use super::layout::{Layout, struct_texts};
-use crate::material::{About, Declared, LISTED, Material, Options, Section, Surroundings, registered};
 use super::draw_list::recipes_of;
+use super::layout::{Layout, struct_texts};
 use super::material::bytes;
+use crate::material::{About, Declared, LISTED, Material, Options, Section, Surroundings, registered};
 use crate::scene::Scene;
 use crate::{Error, Result};
 
@@ -227,7 +227,9 @@ impl Shaders {
             None => Ok(()),
             Some(section) => {
                 let key = section.about().key;
-                let message = format!("has the section {key}, which this renderer does not know; call material::register before making the renderer");
+                let message = format!(
+                    "has the section {key}, which this renderer does not know; call material::register before making the renderer"
+                );
                 Err(Error::Argument { what: format!("material {:?}", material.name), message })
             }
         }
@@ -259,8 +261,7 @@ impl Shaders {
         options.features.flags = on.map(|name| (name, true.into())).collect();
         let root = module_path(&["pass", recipe.pass]);
         let text = wesl::compile(&root, &tree, &NoMangler, &options).map_err(linking)?.to_string();
-        let module =
-            naga::front::wgsl::parse_str(&text).map_err(|e| fault_in(&recipe.sections, &text, &e))?;
+        let module = naga::front::wgsl::parse_str(&text).map_err(|e| fault_in(&recipe.sections, &text, &e))?;
         Ok(Linked {
             has_fragment: module.entry_points.iter().any(|e| e.stage == naga::ShaderStage::Fragment),
             bindings: bindings(&module),
@@ -281,7 +282,11 @@ impl Shaders {
         for about in &recipe.sections {
             let key = about.key;
             for stage in self.hooks(about) {
-                let folder = if *stage == "model" || !has_function(look_text(about), key, stage) { "model" } else { "look" };
+                let folder = if *stage == "model" || !has_function(look_text(about), key, stage) {
+                    "model"
+                } else {
+                    "look"
+                };
                 let _ = writeln!(page, "import package::{folder}::{key}::{key}_{stage};");
             }
             if self.places.of(key).is_some() {
@@ -291,7 +296,11 @@ impl Shaders {
         self.numbers(recipe, &mut page);
         let mut index = 1;
         for Bound { name, is_array } in &recipe.textures {
-            let ty = if *is_array { "texture_2d_array<f32>" } else { "texture_2d<f32>" };
+            let ty = if *is_array {
+                "texture_2d_array<f32>"
+            } else {
+                "texture_2d<f32>"
+            };
             let _ = writeln!(page, "@group(2) @binding({index}) var {name}: {ty};");
             let _ = writeln!(page, "@group(2) @binding({}) var {name}_sampler: sampler;", index + 1);
             index += 2;
@@ -347,7 +356,11 @@ impl Stage {
             let before = passed[..passed.len() - 1].iter().map(|p| format!("{p}, ")).collect::<String>();
             format!("{section}_{name}({before}{last})")
         };
-        let arrow = if gives.is_empty() { String::new() } else { format!(" -> {gives}") };
+        let arrow = if gives.is_empty() {
+            String::new()
+        } else {
+            format!(" -> {gives}")
+        };
         let mut body = String::new();
         match fold {
             Fold::Each => sections.iter().for_each(|s| body.push_str(&format!("    {};\n", call(s, last)))),
@@ -360,7 +373,10 @@ impl Stage {
                 body.push_str(&format!("    var value = {none};\n"));
                 for s in sections {
                     // Each is called, whatever the others say: textures are read by neighbours together.
-                    body.push_str(&format!("    let of_{s} = {};\n    value = value {operator} of_{s};\n", call(s, last)));
+                    body.push_str(&format!(
+                        "    let of_{s} = {};\n    value = value {operator} of_{s};\n",
+                        call(s, last)
+                    ));
                 }
                 body.push_str("    return value;\n");
             }
@@ -504,7 +520,8 @@ pub(crate) fn check_section<S: Section + Declared + Clone + Default + PartialEq>
     material.set_own(Some(S::default()));
     bytes(&shaders.places, &Surroundings::alone(&material))?;
     let linked = shaders.linked(&recipe)?;
-    let module = naga::front::wgsl::parse_str(&linked.text).map_err(|e| fault_in(&recipe.sections, &linked.text, &e))?;
+    let module =
+        naga::front::wgsl::parse_str(&linked.text).map_err(|e| fault_in(&recipe.sections, &linked.text, &e))?;
     let mut validator =
         naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::empty());
     validator.validate(&module).map(|_| ()).map_err(|e| {

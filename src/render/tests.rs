@@ -33,7 +33,11 @@ fn whole(fields: &[Field]) -> Table {
 fn material_with(sections: &[&About], is_whole: bool, mode: AlphaMode) -> Material {
     let mut table = Table::new();
     for about in sections {
-        let section = if is_whole { whole(about.fields) } else { needed(about.fields) };
+        let section = if is_whole {
+            whole(about.fields)
+        } else {
+            needed(about.fields)
+        };
         if about.key == "toon" {
             let shading = Table::from_iter([("toon".to_owned(), Value::Table(section))]);
             table.insert("shading".to_owned(), Value::Table(shading));

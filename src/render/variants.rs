@@ -32,7 +32,7 @@ pub(crate) struct Variant {
     pub bound: Option<Arc<BoundLayout>>,
 }
 
-/// What a pass draws with: a pipeline, and the group of its material in [`GpuScene::groups`](super::upload::GpuScene).
+/// What a pass draws with: a pipeline, and the group of its material in [`GpuScene::groups`](super::gpu_scene::GpuScene).
 #[derive(Clone, Debug)]
 pub(crate) struct Drawn {
     pub pipeline: wgpu::RenderPipeline,

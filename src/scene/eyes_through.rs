@@ -20,4 +20,3 @@ crate::part! {
         fade_pitch_rad: [f32; 2] = [40f32.to_radians(), 70f32.to_radians()], in 0.0..=3.1416;
     }
 }
-

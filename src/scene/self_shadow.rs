@@ -19,4 +19,3 @@ crate::part! {
 
 /// Characters of a crowd that have a shadow map.
 pub const MOST_SHADOWED: u32 = 8;
-

@@ -278,7 +278,8 @@ fn inner_lines_are_drawn_where_surfaces_meet() {
         right.normals = vec![right_normal; 4];
         scene(vec![(square([-0.25, 0.0], 0.25, 0.0), material(lines)), (right, material(lines))])
     };
-    let view = View { channel: Channel::Look("inner-lines"), background: Background::Color(Srgb([0; 3])), ..ball_view(512) };
+    let view =
+        View { channel: Channel::Look("inner-lines"), background: Background::Color(Srgb([0; 3])), ..ball_view(512) };
     let line = |scene: &Scene| {
         let image = render(&gpu, scene, &view);
         (0..512).map(|x| f32::from(pixel(&image, x, 256)[0]) / 255.0).map(hikage::color::linear_from_srgb).sum::<f32>()

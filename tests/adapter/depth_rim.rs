@@ -13,7 +13,8 @@ fn rimmed(width_px: f32) -> Material {
 }
 
 fn channel(gpu: &Lent, material: Material, view: &View, radius: f32) -> Image {
-    let view = View { channel: Channel::Look("depth-rim"), background: Background::Color(Srgb([0; 3])), ..view.clone() };
+    let view =
+        View { channel: Channel::Look("depth-rim"), background: Background::Color(Srgb([0; 3])), ..view.clone() };
     render(gpu, &scene(vec![(sphere(radius, 96, 192), material)]), &view)
 }
 

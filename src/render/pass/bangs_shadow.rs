@@ -6,9 +6,9 @@ use super::bangs_near::{self, BangsNearInputs, BangsNearPass};
 use super::{DEPTH_FORMAT, map_request};
 use crate::Gpu;
 use crate::render::draw_list::{self, Draw, Pipelines};
+use crate::render::gpu_scene::GpuScene;
 use crate::render::material::Composition;
 use crate::render::targets;
-use crate::render::upload::GpuScene;
 use crate::render::variants::{Drawn, Request};
 use crate::scene::Bangs;
 

@@ -2,8 +2,8 @@
 
 use wgpu::util::DeviceExt;
 
+use crate::render::gpu_scene::GpuScene;
 use crate::render::shaders::Recipe;
-use crate::render::upload::GpuScene;
 use crate::render::variants::Variants;
 use crate::render::vertex::{AffineRows, DeformGroup, DeformVertex, MorphEntry};
 use crate::{Gpu, Result};

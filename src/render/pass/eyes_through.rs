@@ -3,8 +3,8 @@
 use super::{Drawing, Mark, Picture, surface_cull};
 use crate::material::{AlphaMode, Material};
 use crate::render::draw_list::{self, Pipelines};
+use crate::render::gpu_scene::GpuScene;
 use crate::render::material::Composition;
-use crate::render::upload::GpuScene;
 use crate::render::variants::{Drawn, Request};
 
 /// What draws a material.

@@ -4,8 +4,8 @@ use super::{Drawing, Mark, Picture};
 use crate::Result;
 use crate::material::{Base, Options};
 use crate::render::draw_list;
+use crate::render::gpu_scene::GpuScene;
 use crate::render::shaders::{Bound, Recipe};
-use crate::render::upload::GpuScene;
 use crate::render::variants::{Drawn, Request, Variants};
 
 /// What draws each surface of a scene.

@@ -3,8 +3,8 @@
 use super::{Drawing, Mark, Picture};
 use crate::material::Fluff;
 use crate::render::draw_list::{self, Pipelines};
+use crate::render::gpu_scene::GpuScene;
 use crate::render::material::Composition;
-use crate::render::upload::GpuScene;
 use crate::render::variants::{Drawn, Request};
 
 /// Shells of a coat: `fluff_shells` of `wgsl/lib/fluff.wgsl`.

@@ -4,9 +4,9 @@ use super::{ADD, HDR_FORMAT, surface_cull};
 use crate::Gpu;
 use crate::material::{AlphaMode, Material};
 use crate::render::draw_list;
+use crate::render::gpu_scene::GpuScene;
 use crate::render::material::Composition;
 use crate::render::targets;
-use crate::render::upload::GpuScene;
 use crate::render::variants::{Request, State};
 
 /// What the pass reads and writes.

@@ -3,12 +3,18 @@
 use super::{Drawing, Mark, Picture, surface_cull};
 use crate::material::{AlphaMode, Material};
 use crate::render::draw_list::{self, Pipelines};
+use crate::render::gpu_scene::GpuScene;
 use crate::render::material::Composition;
-use crate::render::upload::GpuScene;
 use crate::render::variants::{Drawn, Request};
 
 /// What draws a material.
-pub(crate) fn request(picture: &Picture<'_>, of: &Composition, material: &Material, colors: bool, mark: Mark) -> Request {
+pub(crate) fn request(
+    picture: &Picture<'_>,
+    of: &Composition,
+    material: &Material,
+    colors: bool,
+    mark: Mark,
+) -> Request {
     let is_masked = of.alpha == AlphaMode::Mask;
     // With several samples a cut can cover part of a pixel.
     let (covers, dithers) = (is_masked && picture.has_samples(), of.has("dither_fade") && picture.has_samples());

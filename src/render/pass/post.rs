@@ -90,8 +90,7 @@ fn pipeline(
     layout: &wgpu::PipelineLayout,
     smooths: bool,
 ) -> Result<wgpu::RenderPipeline> {
-    let recipe =
-        Recipe::plain("post").with("encode_srgb", encodes_srgb(output.format)).with("antialias", smooths);
+    let recipe = Recipe::plain("post").with("encode_srgb", encodes_srgb(output.format)).with("antialias", smooths);
     let module = variants.plain_module(&recipe)?;
     Ok(targets::picture_pipeline(&variants.gpu, "post", layout, &module, "fs_main", output.format, None))
 }

@@ -3,9 +3,9 @@
 use super::{depth_state, surface_cull};
 use crate::material::Material;
 use crate::render::draw_list;
+use crate::render::gpu_scene::GpuScene;
 use crate::render::material::Composition;
 use crate::render::targets::PrepassTargets;
-use crate::render::upload::GpuScene;
 use crate::render::variants::{Drawn, Request, State};
 
 /// Format of the world normal (octahedral, two halves of a word) and the part index + 1.
@@ -26,7 +26,10 @@ pub(crate) struct PrepassInputs<'a> {
 pub(crate) fn request(of: &Composition, material: &Material, colors: bool, surfaces: bool) -> Request {
     let recipe = of.cut("prepass", colors, true).with("part", surfaces).with("normal", surfaces);
     let target = surfaces.then(|| SURFACES_FORMAT.into());
-    Request { recipe, state: State { cull: surface_cull(material), depth: Some(depth_state(true)), samples: 1, target } }
+    Request {
+        recipe,
+        state: State { cull: surface_cull(material), depth: Some(depth_state(true)), samples: 1, target },
+    }
 }
 
 /// Draws surfaces.

@@ -5,8 +5,8 @@ use glam::Vec3;
 use super::{DEPTH_FORMAT, map_request};
 use crate::Gpu;
 use crate::render::draw_list;
+use crate::render::gpu_scene::GpuScene;
 use crate::render::material::Composition;
-use crate::render::upload::GpuScene;
 use crate::render::variants::Request;
 use crate::scene::{MOST_SHADOWED, SelfShadow};
 

@@ -35,8 +35,16 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         None => all().collect(),
     };
     let is_whole = args.section.is_some();
-    let text: String =
-        sections.iter().map(|about| if args.markdown { markdown(about) } else { plain(about, is_whole) }).collect();
+    let text: String = sections
+        .iter()
+        .map(|about| {
+            if args.markdown {
+                markdown(about)
+            } else {
+                plain(about, is_whole)
+            }
+        })
+        .collect();
     print(&text)
 }
 
@@ -58,7 +66,12 @@ fn rows(fields: &[Field], defaults: &Table, before: &str, list: &mut Vec<Row>) {
             Kind::Part(_) => "table".to_owned(),
             Kind::Plain => String::new(),
         };
-        list.push(Row { default: default.map_or_else(|| "none".to_owned(), shown), range, doc: field.doc, path: path.clone() });
+        list.push(Row {
+            default: default.map_or_else(|| "none".to_owned(), shown),
+            range,
+            doc: field.doc,
+            path: path.clone(),
+        });
         if let Kind::Part(inner) = field.kind {
             let none = Table::new();
             rows(inner, default.and_then(Value::as_table).unwrap_or(&none), &format!("{path}."), list);

@@ -181,7 +181,10 @@ fn the_anime_look_is_as_before() {
         ("eyes-through", Channel::Look("eyes-through")),
     ] {
         studio.channel = channel;
-        let framing = if matches!(channel, Channel::Look("highlight") | Channel::Look("depth-rim") | Channel::Look("self-shadow")) {
+        let framing = if matches!(
+            channel,
+            Channel::Look("highlight") | Channel::Look("depth-rim") | Channel::Look("self-shadow")
+        ) {
             Framing::Portrait
         } else {
             Framing::Face

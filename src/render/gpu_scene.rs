@@ -1,0 +1,349 @@
+//! A scene on the GPU: its pose, its places, what shows it in the picture and in debug channels.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use glam::{Mat4, Vec3};
+
+use super::draw_list::{self, Draw, Pipelines};
+use super::frame::{CharacterState, put_character};
+use super::geometry::{Palette, Rig};
+use super::layout::Filled;
+use super::looks::{Looks, MaterialGroup};
+use super::made::Made;
+use super::pass::bangs_shadow::BangsMap;
+use super::pass::deform::DeformBuffers;
+use super::pass::shadow::{ShadowMap, ShadowRows};
+use super::pass::{Picture, prepass};
+use super::variants::{Drawn, Request, Variant, Variants};
+use super::vertex::AffineRows;
+use super::{Renderer, View};
+use crate::material::Material;
+use crate::motion::Pose;
+use crate::scene::{EyesThrough, Post, Scene};
+use crate::{Error, Gpu, Result};
+
+/// A scene on the GPU, ready to be drawn. Made by [`Renderer::upload`].
+///
+/// It keeps what a [`Pose`] needs; the images of the [`Scene`] may be dropped after the upload.
+#[derive(Debug)]
+pub struct GpuScene {
+    pub(crate) deform: DeformBuffers,
+    pub(crate) static_vertices: wgpu::Buffer,
+    pub(crate) indices: wgpu::Buffer,
+    pub(crate) instances: wgpu::Buffer,
+    pub(crate) instance_capacity: usize,
+    pub(crate) instance_rows: Vec<AffineRows>,
+    /// How often the instances stand in their buffer.
+    pub(crate) instance_copies: usize,
+    pub(crate) character_group: wgpu::BindGroup,
+    /// The same while the map of the bangs is drawn.
+    pub(crate) character_group_without_map: wgpu::BindGroup,
+    pub(crate) bangs: Option<BangsMap>,
+    pub(crate) shadow: Option<ShadowMap>,
+    pub(super) map_samplers: MapSamplers,
+    /// Moves the head from its rest to the pose, and the hips.
+    pub(super) head: Mat4,
+    pub(super) hips: Mat4,
+    pub(super) character: wgpu::Buffer,
+    pub(super) character_numbers: Filled,
+    pub(super) looks: Looks,
+    pub(crate) draws: Vec<Draw>,
+    /// What shows each draw in the picture.
+    pub(crate) picture: Vec<Pipelines<Drawn>>,
+    /// The same in debug channels that somebody has looked at.
+    pub(super) channels: BTreeMap<String, Vec<Pipelines<Drawn>>>,
+    /// Depth, normal and part of every draw, for the channels that show these.
+    pub(crate) geometry: Vec<Drawn>,
+    /// Groups of materials, by what shaders bind of them.
+    pub(crate) groups: Vec<MaterialGroup>,
+    pub(crate) transparent_order: Vec<usize>,
+    /// Eyes and brows that are seen through hair, the foremost first.
+    pub(crate) through_order: Vec<usize>,
+    pub(super) eyes_through: Option<EyesThrough>,
+    pub(crate) post: Option<Post>,
+    /// How often the pose, the places of characters and what is cut out of materials have become others.
+    pub(super) revisions: Revisions,
+    /// The pose that the deformed vertices are in.
+    pub(crate) deformed: Made<u64, ()>,
+    /// What the maps of shadows were drawn for.
+    pub(crate) maps: Made<MapsKey, ()>,
+    pub(super) rig: Rig,
+    pub(super) scratch: Scratch,
+    pub(super) part_materials: Vec<usize>,
+    pub(super) triangles: usize,
+    pub(super) texture_bytes: u64,
+}
+
+/// Counts of changes.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Revisions {
+    pub pose: u64,
+    pub places: u64,
+    pub(super) cuts: u64,
+}
+
+/// What shadow maps depend on.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct MapsKey {
+    pub(super) revisions: Revisions,
+    pub(super) to_light: Vec3,
+    /// Where it moves what is cut out.
+    pub(super) time_s: f32,
+}
+
+/// How shaders read the maps of shadows.
+#[derive(Debug)]
+pub(super) struct MapSamplers {
+    pub(super) gather: wgpu::Sampler,
+    pub(super) compare: wgpu::Sampler,
+}
+
+/// Lists that every pose fills anew, kept so that an animated character allocates nothing.
+#[derive(Debug, Default)]
+pub(super) struct Scratch {
+    pub(super) world: Vec<Mat4>,
+    pub(super) joints: Vec<AffineRows>,
+    pub(super) weights: Vec<f32>,
+    /// What is on the GPU.
+    pub(super) last_joints: Vec<AffineRows>,
+    pub(super) last_weights: Vec<f32>,
+}
+
+/// Bytes that a [`GpuScene`] takes on the GPU.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
+pub struct GpuMemory {
+    /// Textures with their mips.
+    pub textures: u64,
+    /// Vertices, indices, morphs, influences, uniforms.
+    pub geometry: u64,
+}
+
+impl GpuScene {
+    /// Moves the scene to a pose: joint matrices, morph weights and material changes are written to the GPU; the
+    /// vertices follow in the next frame.
+    pub fn set_pose(&mut self, gpu: &Gpu, scene: &Scene, pose: &Pose) {
+        let Scratch { world, joints, weights, .. } = &mut self.scratch;
+        scene.world_from_nodes_into(&pose.locals, world);
+        let matrix = |node: usize| world.get(node).copied().unwrap_or(Mat4::IDENTITY);
+        joints.clear();
+        for palette in &self.rig.palettes {
+            match palette {
+                Palette::Rigid(node) => joints.push(matrix(*node).into()),
+                Palette::Skin(skin) => {
+                    joints.extend(skin.iter().map(|(node, bind)| AffineRows::from(matrix(*node) * *bind)))
+                }
+            }
+        }
+        weights.clear();
+        for &(node, targets) in &self.rig.weights {
+            let of_node = pose.morph_weights.get(node).map_or(&[] as &[f32], Vec::as_slice);
+            weights.extend((0..targets).map(|t| of_node.get(t).copied().unwrap_or(0.0)));
+        }
+        let moved = |bone: Option<(usize, Mat4)>| bone.map_or(Mat4::IDENTITY, |(node, inverse)| matrix(node) * inverse);
+        (self.head, self.hips) = (moved(self.rig.head), moved(self.rig.hips));
+        let Scratch { joints, weights, last_joints, last_weights, .. } = &mut self.scratch;
+        if joints != last_joints || weights != last_weights {
+            gpu.queue.write_buffer(&self.deform.joints, 0, bytemuck::cast_slice(joints));
+            if !weights.is_empty() {
+                gpu.queue.write_buffer(&self.deform.weights, 0, bytemuck::cast_slice(weights));
+            }
+            last_joints.clone_from(joints);
+            last_weights.clone_from(weights);
+            self.revisions.pose += 1;
+        }
+        if self.looks.pose(gpu, pose) {
+            self.revisions.cuts += 1;
+        }
+    }
+
+    /// Gives each character of a larger crowd its shadow map.
+    pub(crate) fn fit_shadow(&mut self, renderer: &Renderer) {
+        let Some(shadow) = &mut self.shadow else { return };
+        if shadow.fit(renderer.gpu(), self.instance_rows.len()) {
+            self.revisions.places += 1;
+            self.character_group = renderer.character_group(
+                &self.character,
+                &self.map_samplers,
+                self.bangs.as_ref(),
+                self.shadow.as_ref(),
+            );
+        }
+    }
+
+    /// Writes the places of the characters of a view.
+    pub(crate) fn place(&mut self, gpu: &Gpu, view: &View) {
+        let rows = view.instances.iter().map(|m| AffineRows::from(*m));
+        if rows.clone().eq(self.instance_rows.iter().copied()) {
+            return;
+        }
+        self.revisions.places += 1;
+        self.instance_rows.clear();
+        self.instance_rows.extend(rows);
+        // A copy for the surfaces, and one for each shell of a coat.
+        let copied = self.instance_rows.repeat(self.instance_copies);
+        if copied.len() > self.instance_capacity {
+            self.instance_capacity = copied.len().next_power_of_two();
+            self.instances = instance_buffer(gpu, self.instance_capacity);
+        }
+        gpu.queue.write_buffer(&self.instances, 0, bytemuck::cast_slice(&copied));
+    }
+
+    /// Writes what of the character depends on the light. A crowd shares the shadow of its first one's bangs.
+    pub(crate) fn light(&mut self, gpu: &Gpu, view: &View) {
+        let from_world = view.instances.first().copied().unwrap_or_default().inverse();
+        let to_light = from_world.transform_vector3(view.lights.directional.to_light).normalize_or(Vec3::Z);
+        let state = CharacterState {
+            head: self.head,
+            head_middle: self.rig.head_middle,
+            bangs: self.bangs.as_ref(),
+            through: self.eyes_through,
+            to_light,
+            from_world,
+            shadow: self.shadow.as_ref().map_or_else(ShadowRows::default, |s| {
+                let middle = self.hips.transform_point3(s.middle);
+                s.rows(middle, view.lights.directional.to_light, self.instance_rows.len())
+            }),
+        };
+        let bytes = self.character_numbers.fill(|numbers| put_character(numbers, &state));
+        gpu.queue.write_buffer(&self.character, 0, bytes);
+    }
+
+    /// What its deformed vertices are made from.
+    pub(crate) fn pose_revision(&self) -> u64 {
+        self.revisions.pose
+    }
+
+    /// What its maps of shadows are made from.
+    pub(crate) fn maps_key(&self, view: &View) -> MapsKey {
+        let moves = self.draws.iter().any(|d| self.looks.compositions[d.material].has("uv_animation"));
+        MapsKey {
+            revisions: self.revisions,
+            to_light: view.lights.directional.to_light,
+            time_s: if moves { view.time_s } else { 0.0 },
+        }
+    }
+
+    /// The material of a draw as it was uploaded.
+    pub(crate) fn material(&self, draw: &Draw) -> &Material {
+        &self.looks.sources[draw.material]
+    }
+
+    /// Whether a material has inner lines, which read normals and parts.
+    pub(crate) fn has_inner_lines(&self) -> bool {
+        self.draws.iter().any(|d| self.looks.compositions[d.material].needs("prepass_surfaces"))
+    }
+
+    /// Whether something reads the depth of the picture.
+    pub(crate) fn has_prepass(&self) -> bool {
+        self.picture.iter().any(|p| p.prepass.is_some())
+    }
+
+    /// What a variant draws a material with; groups of the same layout are shared.
+    pub(crate) fn bind(&mut self, gpu: &Gpu, variant: Variant, material: usize) -> Drawn {
+        let Self { groups, looks, .. } = self;
+        let group = variant.bound.map(|layout| {
+            let known = groups.iter().position(|g| g.material == material && Arc::ptr_eq(&g.layout, &layout));
+            known.unwrap_or_else(|| {
+                let group = looks.group(gpu, material, &layout);
+                groups.push(MaterialGroup { material, layout, group });
+                groups.len() - 1
+            })
+        });
+        Drawn { pipeline: variant.pipeline, group }
+    }
+
+    /// What is drawn with, of what was asked for.
+    pub(super) fn made(
+        &mut self,
+        variants: &Variants,
+        requests: Vec<Pipelines<Request>>,
+    ) -> Result<Vec<Pipelines<Drawn>>> {
+        let materials: Vec<usize> = self.draws.iter().map(|d| d.material).collect();
+        let mut list = Vec::with_capacity(requests.len());
+        for (request, material) in requests.into_iter().zip(materials) {
+            list.push(request.map(|r| Ok::<_, Error>(self.bind(&variants.gpu, variants.get(&r)?, material)))?);
+        }
+        Ok(list)
+    }
+
+    /// What shows a debug channel, made when somebody first looks at it.
+    pub(crate) fn show_channel(&mut self, variants: &Variants, picture: &Picture<'_>, channel: &str) -> Result<()> {
+        if self.channels.contains_key(channel) {
+            return Ok(());
+        }
+        let requests: Vec<_> = self.draws.iter().map(|d| self.channel_request(picture, d)).collect();
+        variants.get_all(requests.iter().flat_map(Pipelines::iter))?;
+        let made = self.made(variants, requests)?;
+        self.channels.insert(channel.to_owned(), made);
+        Ok(())
+    }
+
+    fn channel_request(&self, picture: &Picture<'_>, draw: &Draw) -> Pipelines<Request> {
+        let (of, material) = (&self.looks.compositions[draw.material], self.material(draw));
+        draw_list::surface_requests(draw, of, material, picture)
+    }
+
+    /// What shows each draw in a channel of [`GpuScene::show_channel`].
+    pub(crate) fn channel(&self, channel: &str) -> &[Pipelines<Drawn>] {
+        self.channels.get(channel).map_or(&[], Vec::as_slice)
+    }
+
+    /// Makes what draws depth, normal and part of every draw, when somebody first looks at them.
+    pub(crate) fn make_geometry(&mut self, variants: &Variants) -> Result<()> {
+        if !self.geometry.is_empty() {
+            return Ok(());
+        }
+        let request = |draw: &Draw| {
+            let (of, material) = (&self.looks.compositions[draw.material], self.material(draw));
+            (draw.material, prepass::request(of, material, draw.has_vertex_colors, true))
+        };
+        let requests: Vec<_> = self.draws.iter().map(request).collect();
+        for (material, request) in requests {
+            let drawn = self.bind(&variants.gpu, variants.get(&request)?, material);
+            self.geometry.push(drawn);
+        }
+        Ok(())
+    }
+
+    /// Draw calls of the colour pass with everything in view, outlines and coats of fluff included.
+    #[must_use]
+    pub fn draw_count(&self) -> usize {
+        self.picture.iter().map(|p| 1 + usize::from(p.outline.is_some()) + usize::from(p.fluff.is_some())).sum()
+    }
+
+    /// Triangles of one character, outlines not counted.
+    #[must_use]
+    pub fn triangle_count(&self) -> usize {
+        self.triangles
+    }
+
+    /// Material of a part; parts are what [`Channel::PartId`](super::Channel::PartId) numbers.
+    #[must_use]
+    pub fn part_material(&self, part: usize) -> Option<usize> {
+        self.part_materials.get(part).copied()
+    }
+
+    /// Bytes on the GPU.
+    #[must_use]
+    pub fn memory(&self) -> GpuMemory {
+        GpuMemory {
+            textures: self.texture_bytes,
+            geometry: self.deform.bytes()
+                + self.static_vertices.size()
+                + self.indices.size()
+                + self.instances.size()
+                + self.looks.numbers.size(),
+        }
+    }
+}
+
+/// Buffer for the transforms of `count` instances.
+pub(crate) fn instance_buffer(gpu: &Gpu, count: usize) -> wgpu::Buffer {
+    gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("instances"),
+        size: (count * size_of::<AffineRows>()) as u64,
+        usage: wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    })
+}
