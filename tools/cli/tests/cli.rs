@@ -167,6 +167,22 @@ fn an_output_that_cannot_be_written_is_said_before_drawing() {
     assert_eq!(files(&dir), ["taken.png", "triangle.gltf"]);
 }
 
+/// Folders that a command writes into are made, with those above them; what is no folder is named.
+#[test]
+fn a_folder_for_the_output_is_made() {
+    let dir = folder("new-folder");
+    succeeds(&dir, &["texture", "fur", "-o", "new/fur", "--size", "64"]);
+    succeeds(&dir, &["texture", "fur", "-o", "new/fur", "--size", "64"]);
+    assert_eq!(files(&dir.join("new/fur")), ["fur.png", "fur_normal.png"]);
+    succeeds(&dir, &["sdf", "unpack", "new/fur/fur.png", "-o", "masks", "--angles", "0,45"]);
+    assert_eq!(files(&dir.join("masks")), ["000.png", "045.png"]);
+    for command in [&["texture", "fur"][..], &["sdf", "unpack", "new/fur/fur.png", "--angles", "0"], &["gallery"]] {
+        let error = fails(&dir, &[command, &["-o", "triangle.gltf"]].concat(), 1);
+        assert!(error.contains("triangle.gltf: is not a folder"), "{error}");
+    }
+    assert_eq!(files(&dir), ["masks", "new", "triangle.gltf"]);
+}
+
 #[test]
 fn inspect_tells_what_a_model_an_image_and_a_shader_hold() {
     let dir = folder("inspect");
@@ -255,12 +271,12 @@ fn a_sheet_shows_any_model_and_the_built_in_one_without_a_file() {
 #[test]
 fn a_gallery_is_a_page_of_sheets() {
     let dir = folder("gallery");
-    let error = fails(&dir, &["gallery", "-o", "none"], 1);
-    assert!(error.contains("none") && error.contains("folder"), "{error}");
-    let error = fails(&dir, &["gallery", "-o", ".", "--only", "metal,sheep"], 1);
+    let error = fails(&dir, &["gallery", "-o", "none", "--only", "metal,sheep"], 1);
     assert!(error.contains("sheep") && error.contains("metal"), "{error}");
-    succeeds(&dir, &["gallery", "-o", ".", "--only", "diamond", "--panel", "64"]);
-    assert_eq!(files(&dir), ["diamond.png", "index.html", "triangle.gltf"]);
+    assert_eq!(files(&dir), ["triangle.gltf"]);
+    succeeds(&dir, &["gallery", "-o", "new", "--only", "diamond", "--panel", "64"]);
+    let dir = dir.join("new");
+    assert_eq!(files(&dir), ["diamond.png", "index.html"]);
     let page = fs::read_to_string(dir.join("index.html")).expect("a page");
     assert!(page.contains("src=\"diamond.png\"") && page.contains("</html>"), "{page}");
     let sheet = hikage::picture::read_png(dir.join("diamond.png")).expect("a sheet");
