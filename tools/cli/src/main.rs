@@ -13,6 +13,8 @@ mod look;
 mod output;
 mod render;
 mod sdf;
+#[cfg(target_os = "linux")]
+mod session;
 mod setup;
 mod sheet;
 mod shot;
@@ -76,6 +78,8 @@ enum Command {
 }
 
 fn main() {
+    #[cfg(target_os = "linux")]
+    session::ensure_runtime_folder();
     let program = Program::parse();
     let level = if program.verbose {
         tracing_subscriber::filter::LevelFilter::DEBUG

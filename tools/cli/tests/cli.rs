@@ -24,8 +24,6 @@ fn folder(name: &str) -> PathBuf {
 
 fn hikage(folder: &Path, args: &[&str]) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_hikage"));
-    // Without it, Mesa's device selection writes a line of its own to standard error.
-    command.env("XDG_RUNTIME_DIR", folder);
     command.args(args).current_dir(folder).output().expect("the program starts")
 }
 
@@ -211,6 +209,50 @@ fn inspect_finds_no_fault_in_the_built_in_character() {
     fs::write(dir.join("hikage.vrm"), hikage_character::file()).expect("file");
     let text = succeeds(&dir, &["inspect", "hikage.vrm"]);
     assert!(text.contains("VRM 1.0") && !text.to_lowercase().contains("warning"), "{text}");
+}
+
+/// Without a session, a driver would complain; the program gives it a folder of the user's own, where it can.
+#[cfg(target_os = "linux")]
+#[test]
+fn without_a_session_nothing_is_said_and_nothing_else_changes() {
+    use std::os::unix::fs::PermissionsExt as _;
+    let dir = folder("session");
+    fs::create_dir(dir.join("temporary")).expect("folder");
+    let run = |variable: Option<&str>, temporary: &Path, args: &[&str]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_hikage"));
+        command.args(args).current_dir(&dir).env_remove("XDG_RUNTIME_DIR").env("TMPDIR", temporary);
+        let output = command.envs(variable.map(|v| ("XDG_RUNTIME_DIR", v))).output().expect("the program starts");
+        let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("UTF-8");
+        (output.status.code(), text(output.stdout), text(output.stderr))
+    };
+    let session = dir.to_str().expect("UTF-8");
+    for args in [
+        &["adapters"][..],
+        &["render", "triangle.gltf", "-o", "out.png", "--size", "8x8"],
+        &["render", "triangle.gltf", "-o", "out.png", "--expression", "no such=1"],
+        &["inspect", "none.vrm"],
+        &["paint"],
+        &["--help"],
+    ] {
+        let expected = run(Some(session), &dir, args);
+        for variable in [None, Some(""), Some("relative")] {
+            // A folder relative to this one, too.
+            for temporary in [&dir.join("temporary"), Path::new("temporary")] {
+                assert_eq!(run(variable, temporary, args), expected, "{args:?}, {variable:?}");
+            }
+        }
+        // Where no folder can be had, the program goes on; what a driver says is its own.
+        let (status, said, _) = run(None, &dir.join("none"), args);
+        assert_eq!((status, &said), (expected.0, &expected.1), "{args:?}");
+    }
+    let [made] = &files(&dir.join("temporary"))[..] else { panic!("one folder is made") };
+    assert!(made.starts_with("hikage-"), "{made}");
+    let open = |mode| fs::set_permissions(dir.join("temporary").join(made), fs::Permissions::from_mode(mode));
+    let mode = fs::metadata(dir.join("temporary").join(made)).expect("a folder").permissions().mode();
+    assert_eq!(mode & 0o777, 0o700);
+    // One that others may write into is not used, and nothing ends for it.
+    open(0o777).expect("permissions");
+    assert_eq!(run(None, &dir.join("temporary"), &["adapters"]).0, Some(0));
 }
 
 #[test]
