@@ -415,6 +415,26 @@ fn a_look_beside_the_model_is_used() {
     assert!(!folder.join("bad.png").exists());
 }
 
+/// Without `--look` the built-in character has her own look, which `plain` takes away; other models stay as they are.
+#[test]
+fn the_built_in_character_brings_her_look() {
+    let folder = folder("own-look");
+    let draw = |model: &[&str], look: &[&str]| {
+        let args = ["render", "-o", "out.png", "--size", "48x48", "--view", "face", "--pose", "relaxed"];
+        succeeds(&folder, &[&args[..], model, look].concat());
+        fs::read(folder.join("out.png")).expect("a picture")
+    };
+    let [own, anime, plain] = [&[][..], &["--look", "anime"], &["--look", "plain"]].map(|look| draw(&[], look));
+    assert!(own == anime && own != plain, "her look is not the default");
+    fs::write(folder.join("hikage.vrm"), hikage_character::file()).expect("file");
+    assert!(draw(&["hikage.vrm"], &[]) == plain, "a file brings a look that nobody named");
+    let sheet = |look: &[&str]| {
+        succeeds(&folder, &[&["sheet", "-o", "sheet.png", "--panel", "64", "--sweep", "head"], look].concat());
+        fs::read(folder.join("sheet.png")).expect("a sheet")
+    };
+    assert!(sheet(&[]) == sheet(&["--look", "anime"]), "a sheet has another default");
+}
+
 /// The look file that is written gives the anime look, and a sheet of a sweep shows it.
 #[test]
 fn a_look_to_start_from_is_the_anime_look() {
