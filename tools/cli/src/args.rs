@@ -48,6 +48,11 @@ pub(crate) enum LookName {
     File(PathBuf),
 }
 
+/// What `--look` is for, in every command that has it.
+pub(crate) const LOOK_HELP: &str = "What is made of the model: plain as in the file, an anime head, or what a look file says \
+                                    [default: the look that it brings, in a look file beside it (girl.look.toml beside \
+                                    girl.vrm) or anime for the built-in character; else plain]";
+
 /// `plain`, `anime` or a file.
 pub(crate) fn look(text: &str) -> Result<LookName, String> {
     match text {

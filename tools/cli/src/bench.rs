@@ -44,9 +44,7 @@ pub(crate) struct Args {
         hide_possible_values = true
     )]
     view: ViewName,
-    /// What is made of the model: plain as in the file, an anime head, or what a look file says [default: the look file
-    /// beside the model (girl.look.toml beside girl.vrm), else plain].
-    #[arg(long, value_name = "plain|anime|FILE.look.toml", value_parser = args::look)]
+    #[arg(long, value_name = "plain|anime|FILE.look.toml", value_parser = args::look, help = args::LOOK_HELP)]
     look: Option<LookName>,
     /// Adapter, by a part of its name (`hikage adapters`).
     #[arg(long, value_name = "NAME")]

@@ -14,6 +14,8 @@ mod looks;
 mod output;
 mod render;
 mod sdf;
+#[cfg(target_os = "linux")]
+mod session;
 mod setup;
 mod sheet;
 mod shot;
@@ -79,6 +81,8 @@ enum Command {
 }
 
 fn main() {
+    #[cfg(target_os = "linux")]
+    session::ensure_runtime_folder();
     let program = Program::parse();
     let level = if program.verbose {
         tracing_subscriber::filter::LevelFilter::DEBUG

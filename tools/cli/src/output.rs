@@ -1,6 +1,7 @@
-//! Text for people: aligned tables, sizes, and printing that does not mind a closed pipe.
+//! Text for people: aligned tables, sizes, and printing that does not mind a closed pipe. And folders for what is written.
 
 use std::io::{ErrorKind, Write as _};
+use std::path::Path;
 
 use anstyle::Style;
 
@@ -18,6 +19,14 @@ pub(crate) fn print(text: &str) -> Result<(), Failure> {
 /// Prints a value as JSON.
 pub(crate) fn print_json(value: &impl serde::Serialize) -> Result<(), Failure> {
     print(&format!("{}\n", json(value)?))
+}
+
+/// Makes a folder that a command writes into, with those above it.
+pub(crate) fn make_folder(path: &Path) -> Result<(), Failure> {
+    if path.exists() && !path.is_dir() {
+        return Err(Failure::input(format!("{}: is not a folder", path.display())));
+    }
+    std::fs::create_dir_all(path).map_err(|e| Failure::input(format!("{}: {e}", path.display())))
 }
 
 /// A value as indented JSON.

@@ -67,9 +67,7 @@ pub(crate) struct Args {
     /// Pose of the humanoid [default: rest; relaxed for the built-in character].
     #[arg(long, value_name = "rest|relaxed|bend|offer", value_parser = args::stance)]
     pose: Option<Stance>,
-    /// What is made of the model: plain as in the file, an anime head, or what a look file says [default: the look file
-    /// beside the model (girl.look.toml beside girl.vrm), else plain].
-    #[arg(long, value_name = "plain|anime|FILE.look.toml", value_parser = args::look)]
+    #[arg(long, value_name = "plain|anime|FILE.look.toml", value_parser = args::look, help = args::LOOK_HELP)]
     look: Option<LookName>,
     /// File with camera, light and background; see below.
     #[arg(long, value_name = "SHOT.json")]

@@ -53,22 +53,25 @@ pub(crate) fn load(model: Option<&Path>) -> Result<Scene, Failure> {
 /// Name of the built-in character's file.
 pub(crate) const BUILT_IN: &str = "hikage.vrm";
 
-/// Gives a model its look: the named one, else that of the look file beside it, else none.
+/// Gives a model its look: the named one, else the one that it brings.
 pub(crate) fn apply_look(name: Option<&LookName>, model: Option<&Path>, scene: &mut Scene) -> Result<(), Failure> {
-    let sidecar = model.map(LookFile::beside).filter(|file| file.is_file());
-    let file = match name {
-        Some(LookName::Plain) => return Ok(()),
-        Some(LookName::Anime) => {
-            Look::Anime { face: painted(model)? }.apply(scene);
-            return Ok(());
-        }
-        Some(LookName::File(file)) => file.clone(),
-        None => match sidecar {
-            Some(file) => file,
-            None => return Ok(()),
-        },
-    };
-    Ok(LookFile::read(file)?.apply(scene, painted(model)?.as_ref())?)
+    match name.cloned().unwrap_or_else(|| own_look(model)) {
+        LookName::Plain => {}
+        LookName::Anime => Look::Anime { face: painted(model)? }.apply(scene),
+        LookName::File(file) => LookFile::read(file)?.apply(scene, painted(model)?.as_ref())?,
+    }
+    Ok(())
+}
+
+/// The look that a model brings: that of the built-in character, or the look file beside a file.
+fn own_look(model: Option<&Path>) -> LookName {
+    let Some(model) = model else { return LookName::Anime };
+    let file = LookFile::beside(model);
+    if file.is_file() {
+        LookName::File(file)
+    } else {
+        LookName::Plain
+    }
 }
 
 /// Thresholds of the face of the built-in character, which has painted keys.

@@ -25,7 +25,7 @@ use serde::{Deserialize, Serialize};
 use self::figures::{BAND, Figures, OFF, band, differences, figures, part_ids};
 use self::known::Known;
 use crate::failure::Failure;
-use crate::output::{Table, print, print_json};
+use crate::output::{Table, make_folder, print, print_json};
 use crate::spinner::Spinner;
 use crate::{args, setup};
 
@@ -124,7 +124,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         return Err(Failure::input(format!("{}: has no reference pictures", root.display())));
     }
     if let Some(out) = &args.write {
-        std::fs::create_dir_all(out).map_err(|e| Failure::input(format!("{}: {e}", out.display())))?;
+        make_folder(out)?;
     }
 
     let spinner = Spinner::new();

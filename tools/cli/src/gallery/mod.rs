@@ -13,6 +13,7 @@ use hikage::{Background, Gpu, GpuScene, Output, Renderer, View};
 
 use crate::args::LookName;
 use crate::failure::Failure;
+use crate::output::make_folder;
 use crate::sheet::{BEHIND, GAP, LINE, paper, place, write};
 use crate::spinner::Spinner;
 use crate::{deadline, setup};
@@ -22,9 +23,9 @@ use sheets::{Camera, Panel, Row, Sheet};
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example:
-  mkdir gallery && hikage gallery -o gallery")]
+  hikage gallery -o gallery")]
 pub(crate) struct Args {
-    /// Folder for the sheets and index.html; it must exist.
+    /// Folder for the sheets and index.html.
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
     /// Only these sheets, by name: metal,fire.
@@ -39,15 +40,13 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
-    if !args.output.is_dir() {
-        return Err(Failure::input(format!("{}: is not a folder; make it first", args.output.display())));
-    }
     let mut sheets = sheets::all();
     if let Some(unknown) = args.only.iter().find(|name| !sheets.iter().any(|s| s.name == name.as_str())) {
         let names: Vec<&str> = sheets.iter().map(|s| s.name).collect();
         return Err(Failure::input(format!("--only: no sheet is named {unknown:?}; there are {}", names.join(", "))));
     }
     sheets.retain(|s| args.only.is_empty() || args.only.iter().any(|name| name == s.name));
+    make_folder(&args.output)?;
 
     let spinner = Spinner::new();
     spinner.step("loading the character");

@@ -8,6 +8,7 @@ use hikage::sdf::Mask;
 
 use super::convert::Map;
 use crate::failure::Failure;
+use crate::output::make_folder;
 
 /// Arguments of `hikage sdf unpack`.
 #[derive(clap::Args)]
@@ -17,7 +18,7 @@ pub(crate) struct Args {
     /// Angles of the light, degrees; negative for light from the right.
     #[arg(long, value_name = "ANGLE,...", value_delimiter = ',', allow_hyphen_values = true, required = true, value_parser = angle)]
     angles: Vec<f32>,
-    /// Folder for the masks, which are named by their angles (022.5.png); it must exist.
+    /// Folder for the masks, which are named by their angles (022.5.png).
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
 }
@@ -29,6 +30,7 @@ fn angle(text: &str) -> Result<f32, String> {
 
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let (sides, _) = args.map.read()?;
+    make_folder(&args.output)?;
     for &angle in &args.angles {
         let side = match (&sides.right, angle < 0.0) {
             (_, false) => sides.left.clone(),

@@ -14,12 +14,12 @@ use tiny_skia::{
 
 use crate::args;
 use crate::failure::Failure;
-use crate::output::print;
+use crate::output::{make_folder, print};
 
 /// Arguments of `hikage texture fur`.
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// Folder for fur.png (sRGB) and fur_normal.png (linear, +Y up); it must exist.
+    /// Folder for fur.png (sRGB) and fur_normal.png (linear, +Y up).
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
     /// Side of the maps, texels.
@@ -61,6 +61,7 @@ fn color(text: &str) -> Result<Srgb, String> {
 }
 
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
+    make_folder(&args.output)?;
     let [colors, normals] = paint(args);
     let names = ["fur.png", "fur_normal.png"].map(|name| args.output.join(name));
     write_png(&names[0], &colors)?;

@@ -24,8 +24,6 @@ fn folder(name: &str) -> PathBuf {
 
 fn hikage(folder: &Path, args: &[&str]) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_hikage"));
-    // Without it, Mesa's device selection writes a line of its own to standard error.
-    command.env("XDG_RUNTIME_DIR", folder);
     command.args(args).current_dir(folder).output().expect("the program starts")
 }
 
@@ -167,6 +165,22 @@ fn an_output_that_cannot_be_written_is_said_before_drawing() {
     assert_eq!(files(&dir), ["taken.png", "triangle.gltf"]);
 }
 
+/// Folders that a command writes into are made, with those above them; what is no folder is named.
+#[test]
+fn a_folder_for_the_output_is_made() {
+    let dir = folder("new-folder");
+    succeeds(&dir, &["texture", "fur", "-o", "new/fur", "--size", "64"]);
+    succeeds(&dir, &["texture", "fur", "-o", "new/fur", "--size", "64"]);
+    assert_eq!(files(&dir.join("new/fur")), ["fur.png", "fur_normal.png"]);
+    succeeds(&dir, &["sdf", "unpack", "new/fur/fur.png", "-o", "masks", "--angles", "0,45"]);
+    assert_eq!(files(&dir.join("masks")), ["000.png", "045.png"]);
+    for command in [&["texture", "fur"][..], &["sdf", "unpack", "new/fur/fur.png", "--angles", "0"], &["gallery"]] {
+        let error = fails(&dir, &[command, &["-o", "triangle.gltf"]].concat(), 1);
+        assert!(error.contains("triangle.gltf: is not a folder"), "{error}");
+    }
+    assert_eq!(files(&dir), ["masks", "new", "triangle.gltf"]);
+}
+
 #[test]
 fn inspect_tells_what_a_model_an_image_and_a_shader_hold() {
     let dir = folder("inspect");
@@ -195,6 +209,50 @@ fn inspect_finds_no_fault_in_the_built_in_character() {
     fs::write(dir.join("hikage.vrm"), hikage_character::file()).expect("file");
     let text = succeeds(&dir, &["inspect", "hikage.vrm"]);
     assert!(text.contains("VRM 1.0") && !text.to_lowercase().contains("warning"), "{text}");
+}
+
+/// Without a session, a driver would complain; the program gives it a folder of the user's own, where it can.
+#[cfg(target_os = "linux")]
+#[test]
+fn without_a_session_nothing_is_said_and_nothing_else_changes() {
+    use std::os::unix::fs::PermissionsExt as _;
+    let dir = folder("session");
+    fs::create_dir(dir.join("temporary")).expect("folder");
+    let run = |variable: Option<&str>, temporary: &Path, args: &[&str]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_hikage"));
+        command.args(args).current_dir(&dir).env_remove("XDG_RUNTIME_DIR").env("TMPDIR", temporary);
+        let output = command.envs(variable.map(|v| ("XDG_RUNTIME_DIR", v))).output().expect("the program starts");
+        let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("UTF-8");
+        (output.status.code(), text(output.stdout), text(output.stderr))
+    };
+    let session = dir.to_str().expect("UTF-8");
+    for args in [
+        &["adapters"][..],
+        &["render", "triangle.gltf", "-o", "out.png", "--size", "8x8"],
+        &["render", "triangle.gltf", "-o", "out.png", "--expression", "no such=1"],
+        &["inspect", "none.vrm"],
+        &["paint"],
+        &["--help"],
+    ] {
+        let expected = run(Some(session), &dir, args);
+        for variable in [None, Some(""), Some("relative")] {
+            // A folder relative to this one, too.
+            for temporary in [&dir.join("temporary"), Path::new("temporary")] {
+                assert_eq!(run(variable, temporary, args), expected, "{args:?}, {variable:?}");
+            }
+        }
+        // Where no folder can be had, the program goes on; what a driver says is its own.
+        let (status, said, _) = run(None, &dir.join("none"), args);
+        assert_eq!((status, &said), (expected.0, &expected.1), "{args:?}");
+    }
+    let [made] = &files(&dir.join("temporary"))[..] else { panic!("one folder is made") };
+    assert!(made.starts_with("hikage-"), "{made}");
+    let open = |mode| fs::set_permissions(dir.join("temporary").join(made), fs::Permissions::from_mode(mode));
+    let mode = fs::metadata(dir.join("temporary").join(made)).expect("a folder").permissions().mode();
+    assert_eq!(mode & 0o777, 0o700);
+    // One that others may write into is not used, and nothing ends for it.
+    open(0o777).expect("permissions");
+    assert_eq!(run(None, &dir.join("temporary"), &["adapters"]).0, Some(0));
 }
 
 #[test]
@@ -255,12 +313,12 @@ fn a_sheet_shows_any_model_and_the_built_in_one_without_a_file() {
 #[test]
 fn a_gallery_is_a_page_of_sheets() {
     let dir = folder("gallery");
-    let error = fails(&dir, &["gallery", "-o", "none"], 1);
-    assert!(error.contains("none") && error.contains("folder"), "{error}");
-    let error = fails(&dir, &["gallery", "-o", ".", "--only", "metal,sheep"], 1);
+    let error = fails(&dir, &["gallery", "-o", "none", "--only", "metal,sheep"], 1);
     assert!(error.contains("sheep") && error.contains("metal"), "{error}");
-    succeeds(&dir, &["gallery", "-o", ".", "--only", "diamond", "--panel", "64"]);
-    assert_eq!(files(&dir), ["diamond.png", "index.html", "triangle.gltf"]);
+    assert_eq!(files(&dir), ["triangle.gltf"]);
+    succeeds(&dir, &["gallery", "-o", "new", "--only", "diamond", "--panel", "64"]);
+    let dir = dir.join("new");
+    assert_eq!(files(&dir), ["diamond.png", "index.html"]);
     let page = fs::read_to_string(dir.join("index.html")).expect("a page");
     assert!(page.contains("src=\"diamond.png\"") && page.contains("</html>"), "{page}");
     let sheet = hikage::picture::read_png(dir.join("diamond.png")).expect("a sheet");
@@ -355,6 +413,26 @@ fn a_look_beside_the_model_is_used() {
     let error = fails(&folder, &["render", "triangle.gltf", "-o", "bad.png", "--look", "pretty"], 2);
     assert!(error.contains("plain, anime or a look file"), "{error}");
     assert!(!folder.join("bad.png").exists());
+}
+
+/// Without `--look` the built-in character has her own look, which `plain` takes away; other models stay as they are.
+#[test]
+fn the_built_in_character_brings_her_look() {
+    let folder = folder("own-look");
+    let draw = |model: &[&str], look: &[&str]| {
+        let args = ["render", "-o", "out.png", "--size", "48x48", "--view", "face", "--pose", "relaxed"];
+        succeeds(&folder, &[&args[..], model, look].concat());
+        fs::read(folder.join("out.png")).expect("a picture")
+    };
+    let [own, anime, plain] = [&[][..], &["--look", "anime"], &["--look", "plain"]].map(|look| draw(&[], look));
+    assert!(own == anime && own != plain, "her look is not the default");
+    fs::write(folder.join("hikage.vrm"), hikage_character::file()).expect("file");
+    assert!(draw(&["hikage.vrm"], &[]) == plain, "a file brings a look that nobody named");
+    let sheet = |look: &[&str]| {
+        succeeds(&folder, &[&["sheet", "-o", "sheet.png", "--panel", "64", "--sweep", "head"], look].concat());
+        fs::read(folder.join("sheet.png")).expect("a sheet")
+    };
+    assert!(sheet(&[]) == sheet(&["--look", "anime"]), "a sheet has another default");
 }
 
 /// The look file that is written gives the anime look, and a sheet of a sweep shows it.
