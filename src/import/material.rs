@@ -133,7 +133,7 @@ fn check_info(json: &Json, key: &str, textures: &Textures) -> Result<()> {
 
 /// Every texture of a material that lies on its surface, the base colour's first.
 fn each_texture(material: &mut Material, visit: &mut dyn FnMut(&mut TextureRef)) {
-    material.each_texture(&mut |_, _, read, texture| {
+    material.each_texture(&mut |_, read, texture| {
         if read.by_uv {
             visit(texture);
         }

@@ -96,7 +96,7 @@ crate::part! {
     #[derive(Copy)]
     LightSection {
         /// Where the directional light stands: angle to the character's left, and height, radians; none is the default light.
-        direction_rad: Option<[f32; 2]> = None, in -6.2832..=6.2832;
+        direction_rad: Option<[f32; 2]> = None, in -6.3..=6.3;
         /// Its colour, linear.
         color: [f32; 3] = [1.0; 3], in 0.0..=100.0;
         /// What its colour is multiplied by.

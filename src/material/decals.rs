@@ -28,7 +28,7 @@ crate::part! {
         /// Its width and height there.
         size: [f32; 2] = [0.1; 2], in -1000.0..=1000.0;
         /// Its turn, radians, clockwise as the texture is seen.
-        rotation_rad: f32 = 0.0, in -3.1416..=3.1416;
+        rotation_rad: f32 = 0.0, in -3.15..=3.15;
         /// Colour that it is multiplied by, linear, and its opacity.
         color: [f32; 4] = [1.0; 4], in 0.0..=1.0;
         /// Multiplies what is below it instead of covering it.

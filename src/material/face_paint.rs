@@ -25,7 +25,7 @@ crate::section! {
         nose_line_strength: f32 = 0.8, in 0.0..=1.0;
         /// Angles between the view and the front of the face, to the side, at which the line of the nose begins to show and
         /// shows in full, radians, growing: 40 and 65 degrees.
-        nose_line_yaw_rad: [f32; 2] = [40f32.to_radians(), 65f32.to_radians()], in 0.0..=3.1416;
+        nose_line_yaw_rad: [f32; 2] = [40f32.to_radians(), 65f32.to_radians()], in 0.0..=3.15;
     }
 }
 

@@ -18,7 +18,7 @@ crate::section! {
         /// Least step in depth, metres.
         step_m: f32 = 0.02, in 0.001..=1000000.0;
         /// Least fold between two normals, radians.
-        fold_rad: f32 = 1.0, in 0.0..=3.1416;
+        fold_rad: f32 = 1.0, in 0.0..=3.15;
         /// Draws the borders between parts, too.
         between_parts: bool = true;
     }

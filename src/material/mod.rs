@@ -108,16 +108,13 @@ impl Material {
         self.fire.is_some() && self.alpha.mode == AlphaMode::Blend
     }
 
-    /// Visits every texture: section, path of the field, field, value.
-    pub(crate) fn each_texture(
-        &mut self,
-        visit: &mut dyn FnMut(&'static About, &[&'static str], Read, &mut TextureRef),
-    ) {
+    /// Visits every texture: its key, how it is read, value.
+    pub(crate) fn each_texture(&mut self, visit: &mut dyn FnMut(String, Read, &mut TextureRef)) {
         for section in self.sections_mut() {
             let about = section.about();
             section.walk_fields(&mut Walk::new(&mut |path, field, leaf| {
                 if let (Kind::Texture(read), Leaf::Texture(texture)) = (field.kind, leaf) {
-                    visit(about, path, read, texture);
+                    visit(format!("{}.{}", about.key, path.join(".")), read, texture);
                 }
             }));
         }
@@ -127,9 +124,7 @@ impl Material {
     #[must_use]
     pub fn textures(&self) -> Vec<(String, usize, Encoding)> {
         let (mut copy, mut list) = (self.clone(), Vec::new());
-        copy.each_texture(&mut |about, path, read, texture| {
-            list.push((format!("{}.{}", about.key, path.join(".")), texture.texture, read.encoding));
-        });
+        copy.each_texture(&mut |key, read, texture| list.push((key, texture.texture, read.encoding)));
         copy.authored.each_texture(&mut |name, read, texture| {
             list.push((format!("authored.{name}"), texture.texture, read.encoding));
         });

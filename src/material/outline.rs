@@ -75,7 +75,7 @@ crate::part! {
         /// Exponent of that colour: more makes it darker and more saturated.
         gamma: f32 = 1.5, in 0.5..=4.0;
         /// Turn of its hue, radians, from red towards yellow.
-        hue_rad: f32 = 0.0, in -3.1416..=3.1416;
+        hue_rad: f32 = 0.0, in -3.15..=3.15;
         /// Its saturation; 1 leaves it.
         saturation: f32 = 1.2, in 0.0..=4.0;
         /// What it is multiplied by, linear.

@@ -388,7 +388,10 @@ pub(crate) fn clamp(part: &mut dyn Part) {
     each_number(part, &mut |_, _, [low, high], value| if value.is_nan() { low } else { value.clamp(low, high) });
 }
 
-fn each_number(part: &mut dyn Part, map: &mut dyn FnMut(&[&'static str], &'static Field, [f64; 2], f64) -> f64) {
+/// What a number becomes, by its path, its field and its range.
+type MapNumber<'m> = &'m mut dyn FnMut(&[&'static str], &'static Field, [f64; 2], f64) -> f64;
+
+fn each_number(part: &mut dyn Part, map: MapNumber<'_>) {
     let mut visit = |path: &[&'static str], field: &'static Field, leaf: Leaf<'_>| {
         let Kind::Number { low, high } = field.kind else { return };
         let range = [low, high];

@@ -26,7 +26,7 @@ crate::section! {
         width: f32 = 0.5, in 0.01..=1.0;
         /// Without maps: by how much the hue of the shade's colour turns in warm and in cool light, radians, towards yellow from
         /// red, towards cyan from green.
-        shade_hue_rad: [f32; 2] = [0.0; 2], in -3.1416..=3.1416;
+        shade_hue_rad: [f32; 2] = [0.0; 2], in -3.15..=3.15;
         /// Without maps: its saturation in warm and in cool light; 1 leaves it.
         shade_saturation: [f32; 2] = [1.0; 2], in 0.0..=4.0;
         /// Without maps: what the lit colour is multiplied by at the terminator, linear.

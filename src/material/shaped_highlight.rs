@@ -25,7 +25,7 @@ crate::section! {
         /// Movement of H along X and Y.
         translate: [f32; 2] = [0.0; 2], in -1.0..=1.0;
         /// Turn of X and Y about the normal, radians, from X to Y.
-        rotate_rad: f32 = 0.0, in -3.1416..=3.1416;
+        rotate_rad: f32 = 0.0, in -3.15..=3.15;
         /// How far H is squashed along X, which stretches the highlight along it; 0 not at all.
         squash: f32 = 0.0, in 0.0..=0.99;
         /// Distance by which the halves are split along X and Y; a gap is left where it is more than their size.

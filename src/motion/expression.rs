@@ -100,7 +100,7 @@ impl Pose {
         for bind in &expression.uv_transforms {
             let Some(rest) = scene.materials.get(bind.material) else { continue };
             let posed = self.materials.entry(bind.material).or_insert_with(|| rest.clone());
-            posed.each_texture(&mut |_, _, read, texture| {
+            posed.each_texture(&mut |_, read, texture| {
                 // All but those that do not lie on the surface: the matcap and ramps.
                 for axis in (0..2).filter(|_| read.by_uv) {
                     texture.transform.scale[axis] += (bind.scale[axis] - 1.0) * weight;

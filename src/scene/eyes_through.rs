@@ -15,8 +15,8 @@ crate::part! {
         window_m: f32 = 0.05, in 0.0..=10.0;
         /// Angles of the view to the side of the face from which it fades, and at which it has gone, radians, growing: 50 and
         /// 80 degrees.
-        fade_yaw_rad: [f32; 2] = [50f32.to_radians(), 80f32.to_radians()], in 0.0..=3.1416;
+        fade_yaw_rad: [f32; 2] = [50f32.to_radians(), 80f32.to_radians()], in 0.0..=3.15;
         /// The same for views from above and below: 40 and 70 degrees.
-        fade_pitch_rad: [f32; 2] = [40f32.to_radians(), 70f32.to_radians()], in 0.0..=3.1416;
+        fade_pitch_rad: [f32; 2] = [40f32.to_radians(), 70f32.to_radians()], in 0.0..=3.15;
     }
 }
