@@ -525,7 +525,14 @@ pub(crate) fn check_section<S: Section + Declared + Clone + Default + PartialEq>
     let mut validator =
         naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::empty());
     validator.validate(&module).map(|_| ()).map_err(|e| {
-        let line = e.location(&linked.text).and_then(|l| linked.text.lines().nth(l.line_number as usize - 1));
-        located(&recipe.sections, &linked.text, line.unwrap_or_default(), &e.as_inner().to_string())
+        // Of the function, the statement and the expression at fault, the last one is the shortest.
+        let spans = e.spans().map(|(span, _)| *span).filter(naga::Span::is_defined);
+        let at = spans.min_by_key(|s| s.to_range().map_or(usize::MAX, |r| r.len()));
+        let line = at.and_then(|s| linked.text.lines().nth(s.location(&linked.text).line_number as usize - 1));
+        let mut reason: &dyn std::error::Error = e.as_inner();
+        while let Some(inner) = reason.source() {
+            reason = inner;
+        }
+        located(&recipe.sections, &linked.text, line.unwrap_or_default(), &reason.to_string())
     })
 }

@@ -12,6 +12,7 @@ mod eye_layers;
 mod eyes_through;
 mod face_shadow;
 mod laws;
+mod limits;
 mod oracles;
 mod own_look;
 mod self_shadow;

@@ -127,8 +127,8 @@ fn a_section_of_an_application_draws_by_its_look_file_and_has_a_channel() {
     let channel = Channel::from_name("own_tint-share").expect("a channel");
     let shown = picture(&gpu, &scene, &View { channel, ..view(64, 2.0) });
     let middle = (32 * 64 + 32) * 4;
-    // Half of linear white.
-    assert_eq!(shown.pixels[middle..middle + 3], [188; 3]);
+    // Half of linear white lies between two codes.
+    assert!(shown.pixels[middle..middle + 3].iter().all(|c| [187, 188].contains(c)), "{:?}", &shown.pixels[middle..]);
     scene.materials[0].own_mut::<OwnTint>().expect("the section").share = 1.0;
     let green = picture(&gpu, &scene, &view(64, 2.0));
     let error = stale.expect("a renderer").upload(&scene).expect_err("made before").to_string();
