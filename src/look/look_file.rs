@@ -399,7 +399,7 @@ impl LookFile {
                 key => sections.get_mut(key),
             };
             if let Some(Value::Table(section)) = section {
-                self.textures_of(scene, about.fields, section, pointer)?;
+                self.textures_of(scene, about.inner.fields, section, pointer)?;
             }
         }
         Ok(())
@@ -408,7 +408,9 @@ impl LookFile {
     fn textures_of(&self, scene: &mut Scene, fields: &[Field], table: &mut Table, pointer: &str) -> Result<()> {
         for field in fields {
             match (field.kind, table.get_mut(field.name)) {
-                (Kind::Part(inner), Some(Value::Table(table))) => self.textures_of(scene, inner, table, pointer)?,
+                (Kind::Part(inner), Some(Value::Table(table))) => {
+                    self.textures_of(scene, inner.fields, table, pointer)?
+                }
                 (Kind::Texture(read), Some(value)) if value.is_str() => {
                     let file = self.beside_this(Path::new(value.as_str().unwrap_or_default()), pointer)?;
                     let texture = add_texture(scene, image::load(file)?, read);
@@ -475,7 +477,7 @@ fn look_sections(material: &Material) -> Table {
     for about in all().filter(of_look) {
         if let Some(Value::Table(section)) = whole.get(about.key) {
             let mut section = section.clone();
-            strip_textures(about.fields, &mut section);
+            strip_textures(about.inner.fields, &mut section);
             table.insert(about.key.to_owned(), Value::Table(section));
         }
     }
@@ -489,7 +491,7 @@ fn strip_textures(fields: &[Field], table: &mut Table) {
             (Kind::Texture(_), Some(_)) => {
                 table.remove(field.name);
             }
-            (Kind::Part(inner), Some(Value::Table(table))) => strip_textures(inner, table),
+            (Kind::Part(inner), Some(Value::Table(table))) => strip_textures(inner.fields, table),
             _ => {}
         }
     }

@@ -12,7 +12,7 @@ pub use alpha::{Alpha, AlphaMode};
 pub use authored::{Authored, Substance};
 pub use own::{OwnSection, register};
 pub use section::{
-    About, Declared, Encoding, Field, Fields, Kind, Leaf, Options, Part, Preset, Read, Section, Surroundings,
+    About, Declared, Encoding, Field, Fields, Inner, Kind, Leaf, Options, Part, Preset, Read, Section, Surroundings,
     UNBOUNDED, Walk, shown_range,
 };
 pub use texture_ref::{TextureRef, UvTransform};

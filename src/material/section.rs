@@ -18,10 +18,8 @@ pub struct About {
     pub name: &'static str,
     /// Its documentation.
     pub doc: &'static str,
-    /// Its fields.
-    pub fields: &'static [Field],
-    /// Its defaults as a look file would write them; what is off at first is left out.
-    pub defaults: fn() -> toml::Table,
+    /// Its fields, with their defaults; what is off at first has none.
+    pub inner: &'static Inner,
     /// Sets of numbers by name.
     pub presets: &'static [Preset],
     /// Parts of the varying that its shader reads: `tangent`, `shadow`. Default: none.
@@ -47,8 +45,7 @@ impl About {
         key: "",
         name: "",
         doc: "",
-        fields: &[],
-        defaults: toml::Table::new,
+        inner: &Inner { fields: &[], defaults: toml::Table::new },
         presets: &[],
         needs: &[],
         channel: None,
@@ -84,19 +81,28 @@ pub enum Kind {
     /// A texture.
     Texture(Read),
     /// Fields of its own.
-    Part(&'static [Field]),
+    Part(&'static Inner),
     /// Anything else: a switch, a name.
     Plain,
+}
+
+/// Fields that a field holds together.
+#[derive(Clone, Copy, Debug)]
+pub struct Inner {
+    /// They.
+    pub fields: &'static [Field],
+    /// Their defaults as a look file would write them.
+    pub defaults: fn() -> toml::Table,
 }
 
 impl Kind {
     /// What the tail of a field in [`section!`](crate::section) says.
     #[must_use]
-    pub const fn of(range: Option<[f64; 2]>, read: Option<Read>, part: Option<&'static [Field]>) -> Self {
+    pub const fn of(range: Option<[f64; 2]>, read: Option<Read>, part: Option<&'static Inner>) -> Self {
         match (range, read, part) {
             (Some([low, high]), ..) => Self::Number { low, high },
             (_, Some(read), _) => Self::Texture(read),
-            (.., Some(fields)) => Self::Part(fields),
+            (.., Some(inner)) => Self::Part(inner),
             _ => Self::Plain,
         }
     }
@@ -466,8 +472,7 @@ macro_rules! section {
                 key: $key,
                 name: stringify!($name),
                 doc: concat!($($doc, "\n"),*),
-                fields: Self::FIELDS,
-                defaults: || $crate::__private::table(&Self::default()),
+                inner: Self::INNER,
                 presets: &[$($($crate::material::Preset {
                     name: stringify!($preset),
                     doc: concat!($($preset_doc),*),
@@ -536,6 +541,13 @@ macro_rules! part {
         }
 
         impl $name {
+            /// Its fields with their defaults.
+            #[allow(dead_code, reason = "what no section holds is asked for its ranges alone")]
+            pub const INNER: &'static $crate::material::Inner = &$crate::material::Inner {
+                fields: Self::FIELDS,
+                defaults: || $crate::__private::table(&Self::default()),
+            };
+
             /// Its fields.
             pub const FIELDS: &'static [$crate::material::Field] = &[
                 $($crate::material::Field {
@@ -544,7 +556,7 @@ macro_rules! part {
                     kind: $crate::material::Kind::of(
                         $crate::__optional!($([$low as f64, $high as f64])?),
                         $crate::__optional!($($crate::material::Read::$read)?),
-                        $crate::__optional!($($part::FIELDS)?),
+                        $crate::__optional!($($part::INNER)?),
                     ),
                 },)*
             ];

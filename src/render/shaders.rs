@@ -511,7 +511,7 @@ pub(crate) fn check_section<S: Section + Declared + Clone + Default + PartialEq>
     for option in ["lit", "normal", "world", "uv"].iter().chain(about.needs) {
         recipe.options.set(*option, true);
     }
-    for field in about.fields.iter().filter(|f| matches!(f.kind, crate::material::Kind::Texture(_))) {
+    for field in about.inner.fields.iter().filter(|f| matches!(f.kind, crate::material::Kind::Texture(_))) {
         let name = format!("{}_{}", about.key, field.name);
         recipe.options.set(name.clone(), true);
         recipe.textures.push(Bound { name, is_array: false });

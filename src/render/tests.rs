@@ -22,8 +22,8 @@ fn whole(fields: &[Field]) -> Table {
     let value = |field: &Field| match field.kind {
         Kind::Texture(_) if field.name == "map" && fields.iter().any(|f| f.name == "overhead_fade") => None,
         Kind::Texture(_) => Some(Value::Table(Table::from_iter([("texture".to_owned(), Value::Integer(0))]))),
-        Kind::Part(inner) if field.name == "placed" => Some(Value::Array(vec![Value::Table(whole(inner))])),
-        Kind::Part(inner) => Some(Value::Table(whole(inner))),
+        Kind::Part(inner) if field.name == "placed" => Some(Value::Array(vec![Value::Table(whole(inner.fields))])),
+        Kind::Part(inner) => Some(Value::Table(whole(inner.fields))),
         _ => None,
     };
     fields.iter().filter_map(|f| Some((f.name.to_owned(), value(f)?))).collect()
@@ -34,9 +34,9 @@ fn material_with(sections: &[&About], is_whole: bool, mode: AlphaMode) -> Materi
     let mut table = Table::new();
     for about in sections {
         let section = if is_whole {
-            whole(about.fields)
+            whole(about.inner.fields)
         } else {
-            needed(about.fields)
+            needed(about.inner.fields)
         };
         if about.key == "toon" {
             let shading = Table::from_iter([("toon".to_owned(), Value::Table(section))]);

@@ -1,7 +1,7 @@
 //! `hikage looks`: every section that a material can have, with its fields, ranges and defaults.
 
-use hikage::material::{About, Field, Kind, all, shown_range};
-use toml::{Table, Value};
+use hikage::material::{About, Field, Inner, Kind, all, shown_range};
+use toml::Value;
 
 use crate::failure::Failure;
 use crate::output::print;
@@ -56,25 +56,24 @@ struct Row {
     doc: &'static str,
 }
 
-fn rows(fields: &[Field], defaults: &Table, before: &str, list: &mut Vec<Row>) {
-    for field in fields {
-        let path = format!("{before}{}", field.name);
-        let default = defaults.get(field.name);
-        let range = match field.kind {
-            Kind::Number { low, high } => shown_range(low, high),
-            Kind::Texture(_) => "texture".to_owned(),
-            Kind::Part(_) => "table".to_owned(),
-            Kind::Plain => String::new(),
+fn rows(of: &Inner, before: &str, list: &mut Vec<Row>) {
+    let defaults = (of.defaults)();
+    for Field { name, doc, kind } in of.fields {
+        let path = format!("{before}{name}");
+        let default = defaults.get(*name);
+        let (range, default) = match (kind, default) {
+            (Kind::Texture(_), Some(_)) => ("texture".to_owned(), "required".to_owned()),
+            (Kind::Texture(_), None) => ("texture".to_owned(), "none".to_owned()),
+            (Kind::Part(_), None) => ("table".to_owned(), "none".to_owned()),
+            (Kind::Part(_), Some(_)) => ("table".to_owned(), String::new()),
+            (Kind::Number { low, high }, default) => {
+                (shown_range(*low, *high), default.map_or("none".to_owned(), shown))
+            }
+            (Kind::Plain, default) => (String::new(), default.map_or("none".to_owned(), shown)),
         };
-        list.push(Row {
-            default: default.map_or_else(|| "none".to_owned(), shown),
-            range,
-            doc: field.doc,
-            path: path.clone(),
-        });
-        if let Kind::Part(inner) = field.kind {
-            let none = Table::new();
-            rows(inner, default.and_then(Value::as_table).unwrap_or(&none), &format!("{path}."), list);
+        list.push(Row { path: path.clone(), default, range, doc });
+        if let Kind::Part(inner) = kind {
+            rows(inner, &format!("{path}."), list);
         }
     }
 }
@@ -85,7 +84,11 @@ fn shown(value: &Value) -> String {
         // What was a number of 32 bits has no more digits than those.
         Value::Float(x) => format!("{}", *x as f32),
         Value::Array(list) => format!("[{}]", list.iter().map(shown).collect::<Vec<_>>().join(", ")),
-        Value::Table(_) => "see below".to_owned(),
+        Value::Table(inner) => {
+            let pairs: Vec<_> = inner.iter().map(|(key, value)| format!("{key} = {}", shown(value))).collect();
+            format!("{{ {} }}", pairs.join(", "))
+        }
+        Value::String(text) => format!("{text:?}"),
         other => other.to_string(),
     }
 }
@@ -97,9 +100,9 @@ fn first_sentence(doc: &str) -> String {
 
 fn plain(about: &About, is_whole: bool) -> String {
     let mut list = Vec::new();
-    rows(about.fields, &(about.defaults)(), "", &mut list);
+    rows(about.inner, "", &mut list);
     let doc = if is_whole {
-        about.doc.lines().map(str::trim).collect::<Vec<_>>().join("\n  ").trim_end().to_owned()
+        about.doc.lines().map(str::trim).collect::<Vec<_>>().join("\n  ").trim_end().replace("\n  \n", "\n\n")
     } else {
         first_sentence(about.doc)
     };
@@ -121,7 +124,7 @@ fn plain(about: &About, is_whole: bool) -> String {
 
 fn markdown(about: &About) -> String {
     let mut list = Vec::new();
-    rows(about.fields, &(about.defaults)(), "", &mut list);
+    rows(about.inner, "", &mut list);
     let mut text = format!("### `{}`\n\n{}.\n\n", about.key, first_sentence(about.doc));
     text.push_str("| field | range | default | |\n|---|---|---|---|\n");
     for Row { path, range, default, doc } in list {
