@@ -287,6 +287,11 @@ impl LookFile {
 
     /// Lays the sections of a table over a material.
     fn change(&self, scene: &mut Scene, material: usize, over: &Table, pointer: &str) -> Result<()> {
+        let known: Vec<&str> = ["alpha", "double_sided", "shading"].into_iter().chain(all().map(|a| a.key)).collect();
+        if let Some((key, _)) = over.iter().find(|(key, _)| !known.contains(&key.as_str())) {
+            let known = known.iter().copied().filter(|k| *k != "toon");
+            return Err(self.fault(pointer, no_such("section", key, known)));
+        }
         let mut over = over.clone();
         if let Some(Value::Table(shadow)) = over.get_mut("face_shadow") {
             self.face_maps(scene, shadow, &format!("{pointer}.face_shadow"))?;

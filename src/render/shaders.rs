@@ -13,7 +13,7 @@ pub use super::check_wgsl::{MAX_WGSL_BYTES, ShaderSummary, check};
 use super::draw_list::recipes_of;
 use super::layout::{Layout, struct_texts};
 use super::material::bytes;
-use crate::material::{About, Declared, LISTED, Material, Options, Section, Surroundings, registered};
+use crate::material::{About, Declared, LISTED, Material, Options, Section, Surroundings, out_of_range, registered};
 use crate::scene::Scene;
 use crate::{Error, Result};
 
@@ -502,9 +502,27 @@ fn located(sections: &[&'static About], text: &str, line: &str, message: &str) -
     Error::Input { path, pointer, message: format!("{message}: {}", line.trim()) }
 }
 
+/// Parts of the varying, and of the frame, that a section may ask for.
+const NEEDS: [&str; 10] =
+    ["world", "normal", "tangent", "face_light", "bangs", "moved", "shadow", "nose", "prepass", "prepass_surfaces"];
+
 /// Links and validates a section of an application in a toon surface, with every option off and with its textures.
 pub(crate) fn check_section<S: Section + Declared + Clone + Default + PartialEq>() -> Result<()> {
     let about = S::ABOUT;
+    let refuse = |message: String| {
+        let (path, pointer) = (format!("{}.wgsl", about.key), format!("section {}", about.key));
+        Err(Error::Input { path, pointer, message })
+    };
+    if let Some(need) = about.needs.iter().find(|n| !NEEDS.contains(n)) {
+        return refuse(format!("needs {need:?}, which there is not; there are: {}", NEEDS.join(", ")));
+    }
+    if let Some((key, message)) = out_of_range(&mut S::default()) {
+        return refuse(format!("the default of {key}: {message}"));
+    }
+    if hooks_of(about).is_empty() {
+        let names: Vec<String> = STAGES.iter().map(|s| format!("{}_{}", about.key, s.name)).collect();
+        return refuse(format!("no function of it is hooked into a stage; expected one of: {}", names.join(", ")));
+    }
     let shaders = Shaders::with(registered().into_iter().map(|r| r.about).chain([about]).collect())?;
     let base = LISTED.iter().copied().filter(|a| ["base", "toon"].contains(&a.key));
     let mut recipe = Recipe { sections: base.chain([about]).collect(), ..Recipe::plain("opaque") };

@@ -96,9 +96,15 @@ fn broken_type_shine(s: Surface, l: Shaded) -> Shaded {
 tint!(
     BrokenNumbers,
     "broken_numbers",
-    "struct BrokenNumbers {
+    "import package::bind::surface::{Shaded, Surface};
+
+struct BrokenNumbers {
     color: vec3f,
     shares: f32,
+}
+
+fn broken_numbers_shine(s: Surface, l: Shaded) -> Shaded {
+    return l;
 }
 "
 );
@@ -156,6 +162,26 @@ fn wrong_wgsl_is_one_error_with_file_and_line() {
         assert!(words.iter().all(|word| message.contains(word)), "{message}");
         assert!(!message.contains('\n'), "{message}");
     }
+}
+
+tint!(
+    Unhooked,
+    "unhooked",
+    "struct Unhooked {
+    color: vec3f,
+    share: f32,
+}
+
+fn unhooked_shien(share: f32) -> f32 {
+    return share;
+}
+"
+);
+
+#[test]
+fn a_section_that_no_stage_calls_is_refused() {
+    let error = register::<Unhooked>().expect_err("dead").to_string();
+    assert!(error.contains("unhooked_shine") && error.contains("no function"), "{error}");
 }
 
 #[test]

@@ -158,6 +158,15 @@ fn mistakes_are_named_with_what_was_meant() {
         ("[role.face.face_shadow]\nstack = []", &["either map or stack"]),
         ("[role.face.face_shadow]\nstack = [{ fron = \"a.png\" }]", &["\"fron\"", "\"front\""]),
         ("[role.face.face_shadow]\nsoftness_deg = true", &["softness_deg", "expected a number"]),
+        // Numbers out of their range, with it.
+        ("[role.face.face_shadow]\nsoftness = 99", &["role.face.face_shadow.softness", "is 99", "0.001..0.5"]),
+        ("[role.face.sparkle]\nspacing_px = -3", &["sparkle.spacing_px", "is -3", "2..64"]),
+        ("[role.face.depth_rim]\nwidth_px = -1e9", &["depth_rim.width_px", "0..64"]),
+        ("[role.face.outline.tint]\ngamma = 0.1", &["outline.tint.gamma", "0.5..4"]),
+        ("[role.face.gem]\nlayers = 9", &["gem.layers", "is 9", "1..4"]),
+        ("[role.face.alpha]\nqueue_offset = 40", &["alpha.queue_offset", "is 40", "-9..9"]),
+        ("[bangs]\nsoft_width_mm = 900", &["bangs.soft_width_m", "0.0005..0.05"]),
+        ("[post]\nbloom = { strength = 9 }", &["post.bloom.strength", "0..4"]),
     ];
     for (text, expected) in cases {
         let message = apply(text, &mut doll()).expect_err(text);
