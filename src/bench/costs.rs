@@ -5,7 +5,8 @@ use std::time::Instant;
 use serde::Serialize;
 
 use super::{BenchOptions, Stage, milliseconds, spread};
-use crate::{Gpu, Result, material::all, scene::Scene};
+use crate::material::{Material, all};
+use crate::{Gpu, Result, scene::Scene};
 
 /// Cost of one look.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -39,11 +40,14 @@ const SCENE_LOOKS: &[(&str, SceneOff)] = &[
 pub fn costs(gpu: &Gpu, scene: &Scene, plain: &Scene, options: &BenchOptions) -> Result<Vec<Cost>> {
     let mut with = Stage::new(gpu, scene, options)?;
     let mut list = vec![cost(gpu, options, &mut with, plain, "all", scene.materials.len())?];
-    for about in all() {
+    // Lines in the colours of surfaces cost more than lines do.
+    let tint = ("outline tint", untint as fn(&mut Material, &str) -> bool);
+    let sections = all().map(|about| (about.key, Material::remove as fn(&mut Material, &str) -> bool));
+    for (look, off) in sections.chain([tint]) {
         let mut other = scene.clone();
-        let materials = other.materials.iter_mut().map(|m| m.remove(about.key)).filter(|had| *had).count();
+        let materials = other.materials.iter_mut().map(|m| off(m, look)).filter(|had| *had).count();
         if materials > 0 {
-            list.push(cost(gpu, options, &mut with, &other, about.key, materials)?);
+            list.push(cost(gpu, options, &mut with, &other, look, materials)?);
         }
     }
     for (look, off) in SCENE_LOOKS {
@@ -53,6 +57,10 @@ pub fn costs(gpu: &Gpu, scene: &Scene, plain: &Scene, options: &BenchOptions) ->
         }
     }
     Ok(list)
+}
+
+fn untint(material: &mut Material, _: &str) -> bool {
+    material.outline.as_mut().is_some_and(|o| o.tint.take().is_some())
 }
 
 fn cost(

@@ -2,25 +2,26 @@
 //!
 //! A look is one section: a Rust file here, a WGSL file of the same stem in `wgsl/look`, and one line in the list below.
 
+mod about;
 mod alpha;
 mod authored;
 mod own;
 pub(crate) mod section;
 mod texture_ref;
+mod walk;
 
+pub use about::{About, Encoding, Field, Inner, Kind, Preset, Read};
 pub use alpha::{Alpha, AlphaMode};
 pub use authored::{Authored, Substance};
 pub use own::{OwnSection, register};
-pub use section::{
-    About, Declared, Encoding, Field, Fields, Inner, Kind, Leaf, Options, Part, Preset, Read, Section, Surroundings,
-    UNBOUNDED, Walk, shown_range,
-};
+pub use section::{Declared, Fields, Options, Section, Surroundings};
 pub use texture_ref::{TextureRef, UvTransform};
+pub use walk::{Leaf, Part, UNBOUNDED, Walk, shown_range};
 
 pub use crate::render::layout::Block;
 
 pub(crate) use own::registered;
-pub(crate) use section::{out_of_range, plain_parts};
+pub(crate) use walk::{clamp, out_of_range, plain_parts};
 
 use section::{Held, sections};
 use serde::{Deserialize, Serialize};
@@ -133,19 +134,19 @@ impl Material {
 
     /// A number that is out of its range: its key and what is wrong with it.
     pub(crate) fn out_of_range(&mut self) -> Option<(String, String)> {
-        if let Some((key, message)) = section::out_of_range(&mut self.alpha) {
+        if let Some((key, message)) = out_of_range(&mut self.alpha) {
             return Some((format!("alpha.{key}"), message));
         }
         self.sections_mut().find_map(|section| {
-            let (key, message) = section::out_of_range(section)?;
+            let (key, message) = out_of_range(section)?;
             Some((format!("{}.{key}", section.about().key), message))
         })
     }
 
     /// The same with every number within its range.
     pub(crate) fn clamped(mut self) -> Self {
-        section::clamp(&mut self.alpha);
-        self.sections_mut().for_each(|section| section::clamp(section));
+        clamp(&mut self.alpha);
+        self.sections_mut().for_each(|section| clamp(section));
         self
     }
 }

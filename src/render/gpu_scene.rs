@@ -68,6 +68,12 @@ pub struct GpuScene {
     pub(crate) deformed: Made<u64, ()>,
     /// What the maps of shadows were drawn for.
     pub(crate) maps: Made<MapsKey, ()>,
+    /// Whether a material has inner lines, which read normals and parts.
+    pub(crate) has_inner_lines: bool,
+    /// Whether something reads the depth of the picture.
+    pub(crate) has_prepass: bool,
+    /// Whether time moves what is cut out of a material.
+    pub(super) cuts_move: bool,
     pub(super) rig: Rig,
     pub(super) scratch: Scratch,
     pub(super) part_materials: Vec<usize>,
@@ -90,6 +96,9 @@ pub(crate) struct MapsKey {
     pub(super) to_light: Vec3,
     /// Where it moves what is cut out.
     pub(super) time_s: f32,
+    /// The frames in which the maps stand: bones may move that no vertex follows.
+    pub(super) head: Mat4,
+    pub(super) hips: Mat4,
 }
 
 /// How shaders read the maps of shadows.
@@ -216,27 +225,18 @@ impl GpuScene {
 
     /// What its maps of shadows are made from.
     pub(crate) fn maps_key(&self, view: &View) -> MapsKey {
-        let moves = self.draws.iter().any(|d| self.looks.compositions[d.material].has("uv_animation"));
         MapsKey {
             revisions: self.revisions,
             to_light: view.lights.directional.to_light,
-            time_s: if moves { view.time_s } else { 0.0 },
+            time_s: if self.cuts_move { view.time_s } else { 0.0 },
+            head: self.head,
+            hips: self.hips,
         }
     }
 
     /// The material of a draw as it was uploaded.
     pub(crate) fn material(&self, draw: &Draw) -> &Material {
         &self.looks.sources[draw.material]
-    }
-
-    /// Whether a material has inner lines, which read normals and parts.
-    pub(crate) fn has_inner_lines(&self) -> bool {
-        self.draws.iter().any(|d| self.looks.compositions[d.material].needs("prepass_surfaces"))
-    }
-
-    /// Whether something reads the depth of the picture.
-    pub(crate) fn has_prepass(&self) -> bool {
-        self.picture.iter().any(|p| p.prepass.is_some())
     }
 
     /// What a variant draws a material with; groups of the same layout are shared.

@@ -26,12 +26,19 @@ pub(crate) enum Source {
 
 /// One section of a material that is on.
 #[derive(Clone, Debug)]
-struct Component {
-    about: &'static About,
+pub(crate) struct Component {
+    pub about: &'static About,
     /// Stages in which it takes part.
     hooks: Vec<&'static str>,
     options: Options,
     slots: Vec<Slot>,
+}
+
+impl Component {
+    /// Whether it takes part in a stage.
+    pub fn takes_part(&self, stage: &str) -> bool {
+        self.hooks.contains(&stage)
+    }
 }
 
 /// What the shaders of a material are made of.
@@ -77,6 +84,16 @@ impl Composition {
         self.components.iter().any(|c| c.about.key == key)
     }
 
+    /// Whether a section takes part in a stage.
+    pub fn takes_part(&self, stage: &str) -> bool {
+        self.components.iter().any(|c| c.takes_part(stage))
+    }
+
+    /// Whether any of its sections is so.
+    pub fn any(&self, is_so: impl Fn(&Component) -> bool) -> bool {
+        self.components.iter().any(is_so)
+    }
+
     /// Whether an option or a texture of a section is on.
     pub fn is_on(&self, option: &str) -> bool {
         self.components.iter().any(|c| c.options.has(option) || c.slots.iter().any(|s| s.name == option))
@@ -93,11 +110,7 @@ impl Composition {
     }
 
     /// The recipe of a pass that keeps some of its sections.
-    pub fn recipe(&self, pass: &'static str, vertex_colors: bool, keep: impl Fn(&About) -> bool) -> Recipe {
-        self.mixed(pass, vertex_colors, |c| keep(c.about))
-    }
-
-    fn mixed(&self, pass: &'static str, vertex_colors: bool, keep: impl Fn(&Component) -> bool) -> Recipe {
+    pub fn recipe(&self, pass: &'static str, vertex_colors: bool, keep: impl Fn(&Component) -> bool) -> Recipe {
         let kept: Vec<&Component> = self.components.iter().filter(|c| keep(c)).collect();
         let mut options = Options::default();
         for component in &kept {
@@ -132,11 +145,12 @@ impl Composition {
     /// The recipe of a pass that draws depth alone: what decides which pixels are there, and nothing where all of them are,
     /// so that one pipeline serves all such materials. `fades`: a surface that fades counts where it covers half.
     pub fn cut(&self, pass: &'static str, vertex_colors: bool, fades: bool) -> Recipe {
-        let in_part = |c: &Component| fades || c.about.key != "dither_fade";
-        let cuts = |c: &Component| c.about.key != "base" && c.hooks.contains(&"gone") && in_part(c);
-        let is_cut = self.alpha != AlphaMode::Opaque || self.components.iter().any(cuts);
-        let keep = |c: &Component| c.hooks.iter().any(|h| ["gone", "uv"].contains(h)) && in_part(c);
-        self.mixed(pass, vertex_colors, |c| is_cut && keep(c)).with("cut", is_cut)
+        let counts = |c: &Component| fades || !c.takes_part("samples");
+        // The base colour's alpha cuts by the material's mode.
+        let cuts = |c: &Component| c.about.key != "base" && c.takes_part("gone") && counts(c);
+        let is_cut = self.alpha != AlphaMode::Opaque || self.any(cuts);
+        let keep = |c: &Component| is_cut && counts(c) && (c.takes_part("gone") || c.takes_part("uv"));
+        self.recipe(pass, vertex_colors, keep).with("cut", is_cut)
     }
 
     /// Refuses what a device with WebGPU's default limits cannot bind.
@@ -169,34 +183,28 @@ pub(crate) fn bytes(places: &Places, of: &Surroundings<'_>) -> Result<Vec<u8>> {
     let mut material = of.material.clone();
     for section in material.sections_mut() {
         let about = section.about();
-        let mut transforms = Vec::new();
+        let Some((offset, layout)) = places.of(about.key) else { continue };
+        let names = about.inner.textures();
+        let mut transforms = vec![TextureRef::default(); names.len()];
         section.walk_fields(&mut Walk::new(&mut |path, _, leaf| {
-            if let (Leaf::Texture(texture), Some(last)) = (leaf, path.last()) {
-                transforms.push((format!("{last}_uv"), rows(texture)));
+            if let (Leaf::Texture(texture), Some(i)) = (leaf, names.iter().position(|n| path.last() == Some(n))) {
+                transforms[i] = *texture;
             }
         }));
-        let Some((offset, layout)) = places.of(about.key) else { continue };
         let mut block = Block::new(layout, &mut bytes[offset..offset + layout.size]);
-        for (member, rows) in transforms {
+        for (name, texture) in names.iter().zip(&transforms) {
+            let member = format!("{name}_uv");
             if layout.has(&member) {
-                block.put(&member, rows);
+                block.put(&member, rows(texture));
             }
         }
         section.put(&mut block, of);
-        if let Some(fault) = block.faults().into_iter().find(|f| !is_missing_transform(f)) {
-            return Err(Error::Input {
-                path: format!("{}.wgsl", about.key),
-                pointer: format!("struct {}", about.name),
-                message: fault,
-            });
+        if let Some(message) = block.faults().into_iter().next() {
+            let (path, pointer) = (format!("{}.wgsl", about.key), format!("struct {}", about.name));
+            return Err(Error::Input { path, pointer, message });
         }
     }
     Ok(bytes)
-}
-
-/// Transforms of textures that a material lacks stay unwritten.
-fn is_missing_transform(fault: &str) -> bool {
-    fault.starts_with("nobody writes") && fault.ends_with("_uv")
 }
 
 /// Rows of the transform of a texture (`KHR_texture_transform`: translation * rotation * scale, v downwards); the last number

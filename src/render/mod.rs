@@ -293,9 +293,9 @@ impl Renderer {
             }
             None => {}
         }
-        let has_surfaces = scene.has_inner_lines();
+        let has_surfaces = scene.has_inner_lines;
         let fits = |t: &PrepassTargets| t.size == view.size && (t.has_surfaces || !has_surfaces);
-        if scene.has_prepass() && !self.prepass_targets.as_ref().is_some_and(|(t, _)| fits(t)) {
+        if scene.has_prepass && !self.prepass_targets.as_ref().is_some_and(|(t, _)| fits(t)) {
             let targets = PrepassTargets::new(&gpu, view.size, has_surfaces);
             let group = frame_group(&gpu, &self.layouts, &self.frame_uniform, &targets);
             self.prepass_targets = Some((targets, group));
@@ -325,8 +325,8 @@ impl Renderer {
     }
 
     fn encode_prepass(&self, encoder: &mut wgpu::CommandEncoder, scene: &GpuScene, clock: &Clock) {
-        if let (true, Some((targets, _))) = (scene.has_prepass(), &self.prepass_targets) {
-            let surfaces = scene.has_inner_lines();
+        if let (true, Some((targets, _))) = (scene.has_prepass, &self.prepass_targets) {
+            let surfaces = scene.has_inner_lines;
             let drawn = &mut scene.picture.iter().map(|p| p.prepass.as_ref());
             let inputs = PrepassInputs { scene, frame: &self.frame_group, targets, surfaces, drawn };
             prepass::encode(encoder, inputs, clock.render(Timed::Prepass));
@@ -405,7 +405,7 @@ impl Renderer {
 
     /// Group 0 of the colour pass: with what the prepass drew where a material reads it.
     fn color_frame_group(&self, scene: &GpuScene) -> &wgpu::BindGroup {
-        let drawn = self.prepass_targets.as_ref().filter(|_| scene.has_prepass());
+        let drawn = self.prepass_targets.as_ref().filter(|_| scene.has_prepass);
         drawn.map_or(&self.frame_group, |(_, group)| group)
     }
 

@@ -32,7 +32,14 @@ pub fn tree() -> &'static [(&'static str, &'static str)] {
             let text = std::fs::read_to_string(folder.as_ref()?.join(module).with_extension("wgsl")).ok()?;
             Some(&*text.leak())
         };
-        EMBEDDED.iter().map(|(module, text)| (*module, of_folder(module).unwrap_or(text))).collect()
+        let chosen = |(module, text): &(&'static str, &'static str)| {
+            let found = of_folder(module);
+            if folder.is_some() && found.is_none() {
+                tracing::warn!("{FOLDER_VARIABLE}: there is no {module}.wgsl; the embedded one is taken");
+            }
+            (*module, found.unwrap_or(text))
+        };
+        EMBEDDED.iter().map(chosen).collect()
     })
 }
 
@@ -144,7 +151,7 @@ impl Recipe {
 /// A text that is ready for the device.
 #[derive(Debug)]
 pub(crate) struct Linked {
-    pub text: String,
+    pub text: Arc<str>,
     pub has_fragment: bool,
     /// What it binds of its material.
     pub bindings: Vec<Binding>,
@@ -265,7 +272,7 @@ impl Shaders {
         Ok(Linked {
             has_fragment: module.entry_points.iter().any(|e| e.stage == naga::ShaderStage::Fragment),
             bindings: bindings(&module),
-            text,
+            text: text.into(),
         })
     }
 
@@ -408,7 +415,7 @@ pub fn of_material(scene: &Scene, material: usize) -> Result<Vec<MaterialShader>
     let shaders = Shaders::new()?;
     let mut list: Vec<MaterialShader> = Vec::new();
     for recipe in recipes_of(&shaders, scene, material) {
-        let text = shaders.linked(&recipe)?.text.clone();
+        let text = shaders.linked(&recipe)?.text.to_string();
         if !list.iter().any(|s| s.text == text) {
             list.push(MaterialShader { pass: recipe.pass, page: shaders.page(&recipe), text });
         }
@@ -502,9 +509,14 @@ fn located(sections: &[&'static About], text: &str, line: &str, message: &str) -
     Error::Input { path, pointer, message: format!("{message}: {}", line.trim()) }
 }
 
-/// Parts of the varying, and of the frame, that a section may ask for.
-const NEEDS: [&str; 10] =
-    ["world", "normal", "tangent", "face_light", "bangs", "moved", "shadow", "nose", "prepass", "prepass_surfaces"];
+/// What a section may ask for: members of the varying, and what the prepass draws.
+fn known_needs() -> Vec<&'static str> {
+    let members = file("bind/varying").lines().filter_map(|line| {
+        let (option, member) = line.trim().strip_prefix("@if(")?.split_once(") ")?;
+        member.starts_with("@location").then_some(option)
+    });
+    members.chain(["prepass", "prepass_surfaces"]).collect()
+}
 
 /// Links and validates a section of an application in a toon surface, with every option off and with its textures.
 pub(crate) fn check_section<S: Section + Declared + Clone + Default + PartialEq>() -> Result<()> {
@@ -513,8 +525,9 @@ pub(crate) fn check_section<S: Section + Declared + Clone + Default + PartialEq>
         let (path, pointer) = (format!("{}.wgsl", about.key), format!("section {}", about.key));
         Err(Error::Input { path, pointer, message })
     };
-    if let Some(need) = about.needs.iter().find(|n| !NEEDS.contains(n)) {
-        return refuse(format!("needs {need:?}, which there is not; there are: {}", NEEDS.join(", ")));
+    let known = known_needs();
+    if let Some(need) = about.needs.iter().find(|n| !known.contains(n)) {
+        return refuse(format!("needs {need:?}, which there is not; there are: {}", known.join(", ")));
     }
     if let Some((key, message)) = out_of_range(&mut S::default()) {
         return refuse(format!("the default of {key}: {message}"));

@@ -174,6 +174,9 @@ impl Renderer {
             revisions: Revisions::default(),
             deformed: Made::not_yet(()),
             maps: Made::not_yet(()),
+            has_inner_lines: false,
+            has_prepass: false,
+            cuts_move: false,
             rig: geometry.rig,
             scratch: Scratch::default(),
             part_materials: geometry.part_materials,
@@ -181,6 +184,11 @@ impl Renderer {
             texture_bytes: textures.bytes,
         };
         uploaded.picture = uploaded.made(&self.variants, requests)?;
+        uploaded.has_prepass = uploaded.picture.iter().any(|p| p.prepass.is_some());
+        let drawn = || uploaded.draws.iter().map(|d| &uploaded.looks.compositions[d.material]);
+        let has_inner_lines = drawn().any(|c| c.needs("prepass_surfaces"));
+        let cuts_move = drawn().any(|c| c.takes_part("uv"));
+        (uploaded.has_inner_lines, uploaded.cuts_move) = (has_inner_lines, cuts_move);
         uploaded.set_pose(&gpu, scene, &Pose::rest(scene));
         Ok(uploaded)
     }

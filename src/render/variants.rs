@@ -58,7 +58,7 @@ pub(crate) struct Variants {
     bare: wgpu::PipelineLayout,
     layouts: Mutex<HashMap<Vec<Binding>, Arc<BoundLayout>>>,
     /// By the linked text: recipes that give the same share all.
-    made: Mutex<HashMap<(String, State), Variant>>,
+    made: Mutex<HashMap<(Arc<str>, State), Variant>>,
 }
 
 impl Variants {
@@ -74,7 +74,7 @@ impl Variants {
     /// A section's WGSL does not link; the driver refuses it.
     pub fn get(&self, request: &Request) -> Result<Variant> {
         let linked = self.shaders.linked(&request.recipe)?;
-        let key = (linked.text.clone(), request.state.clone());
+        let key = (Arc::clone(&linked.text), request.state.clone());
         if let Some(found) = lock(&self.made).get(&key) {
             return Ok(found.clone());
         }
@@ -93,13 +93,12 @@ impl Variants {
             requests.par_iter().map(|r| self.shaders.linked(&r.recipe)).collect::<Result<_>>()?;
         let mut wanted = HashMap::new();
         for (request, linked) in requests.into_iter().zip(&linked) {
-            wanted.insert((&linked.text, &request.state), (request, linked));
+            wanted.insert((Arc::clone(&linked.text), request.state.clone()), (request, linked));
         }
-        wanted.retain(|(text, state), _| !lock(&self.made).contains_key(&((*text).clone(), (*state).clone())));
-        let wanted: Vec<_> = wanted.into_iter().collect();
-        wanted.into_par_iter().try_for_each(|((text, state), (request, linked))| {
+        wanted.retain(|key, _| !lock(&self.made).contains_key(key));
+        wanted.into_par_iter().try_for_each(|(key, (request, linked))| {
             let made = self.make(request, linked)?;
-            lock(&self.made).insert((text.clone(), state.clone()), made);
+            lock(&self.made).insert(key, made);
             Ok(())
         })
     }
@@ -146,7 +145,7 @@ impl Variants {
     fn module(&self, label: &str, linked: &Linked) -> wgpu::ShaderModule {
         self.gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some(label),
-            source: wgpu::ShaderSource::Wgsl(linked.text.as_str().into()),
+            source: wgpu::ShaderSource::Wgsl((&*linked.text).into()),
         })
     }
 

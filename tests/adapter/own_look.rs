@@ -184,6 +184,38 @@ fn a_section_that_no_stage_calls_is_refused() {
     assert!(error.contains("unhooked_shine") && error.contains("no function"), "{error}");
 }
 
+tint!(
+    OwnHoles,
+    "own_holes",
+    "import package::bind::uv::UvTransform;
+import package::bind::varying::Varying;
+import package::material::material;
+
+struct OwnHoles {
+    color: vec3f,
+    share: f32,
+    mask_uv: UvTransform,
+}
+
+fn own_holes_samples(at: Varying) -> u32 {
+    return select(15u, 0u, material.own_holes.share > 0.5);
+}
+"
+);
+
+/// Passes go by the stages in which a section takes part, not by its name.
+#[test]
+fn a_section_of_an_application_leaves_samples_out() {
+    register::<OwnHoles>().expect("valid");
+    let gpu = gpu();
+    let mut scene = scene(vec![(sphere(0.5, 32, 64), two_tone())]);
+    let view = View { background: hikage::Background::Transparent, ..view(64, 2.0) };
+    for (holes, is_there) in [(OwnHoles::half(), true), (OwnHoles::default(), false)] {
+        scene.materials[0].set_own(Some(holes));
+        assert_eq!(picture(&gpu, &scene, &view).pixels.iter().any(|c| *c > 0), is_there);
+    }
+}
+
 #[test]
 fn names_that_are_taken_are_refused() {
     hikage::section! {

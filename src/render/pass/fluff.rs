@@ -17,9 +17,9 @@ fn shells(fluff: &Fluff, px_per_m: f32) -> u32 {
 pub(crate) fn request(picture: &Picture<'_>, of: &Composition, colors: bool) -> Request {
     // A coat has no contour of its own, and its holes are strands.
     let recipe = of
-        .recipe("fluff", colors, |about| !about.needs.contains(&"prepass"))
+        .recipe("fluff", colors, |c| !c.about.needs.contains(&"prepass"))
         .with("level", true)
-        .with("dither_samples", of.has("dither_fade") && picture.has_samples());
+        .with("dither_samples", of.takes_part("samples") && picture.has_samples());
     // Shells lie over each other in their order.
     let drawing = Drawing { cull: Some(wgpu::Face::Back), blend: true, write_depth: false, mark: Mark::None };
     picture.request(recipe, drawing)

@@ -27,7 +27,7 @@ pub(crate) fn target(gpu: &Gpu, size: [u32; 2]) -> wgpu::TextureView {
 pub(crate) fn request(of: &Composition, material: &Material, colors: bool) -> Request {
     // Neither rims nor the shadow of bangs change what glows; what fades glows less.
     let recipe = of
-        .recipe("glow", colors, |about| !about.needs.iter().any(|n| ["prepass", "bangs"].contains(n)))
+        .recipe("glow", colors, |c| !c.about.needs.iter().any(|n| ["prepass", "bangs"].contains(n)))
         .with("dither_samples", true)
         .with("blend", of.alpha == AlphaMode::Blend)
         .with("alpha_mask", of.alpha == AlphaMode::Mask);

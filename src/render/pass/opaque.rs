@@ -17,7 +17,7 @@ pub(crate) fn request(
 ) -> Request {
     let is_masked = of.alpha == AlphaMode::Mask;
     // With several samples a cut can cover part of a pixel.
-    let (covers, dithers) = (is_masked && picture.has_samples(), of.has("dither_fade") && picture.has_samples());
+    let (covers, dithers) = (is_masked && picture.has_samples(), of.takes_part("samples") && picture.has_samples());
     let recipe = of
         .recipe("opaque", colors, |_| true)
         .with("alpha_mask", is_masked)

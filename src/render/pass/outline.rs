@@ -1,10 +1,10 @@
 //! Outlines of opaque surfaces: back faces pushed outwards.
 
 use super::{Drawing, Mark, Picture};
-use crate::material::{About, AlphaMode, Material};
+use crate::material::{AlphaMode, Material};
 use crate::render::draw_list::{self, Pipelines};
 use crate::render::gpu_scene::GpuScene;
-use crate::render::material::Composition;
+use crate::render::material::{Component, Composition};
 use crate::render::variants::{Drawn, Request};
 
 const SECTION: &str = "outline";
@@ -15,19 +15,18 @@ pub(crate) fn request(picture: &Picture<'_>, of: &Composition, material: &Materi
         return None;
     }
     let blend = of.alpha == AlphaMode::Blend;
-    let dithers = of.has("dither_fade") && !blend && picture.has_samples();
-    let vanishes = of.has("dissolve") || (of.has("dither_fade") && !dithers);
+    let dithers = of.takes_part("samples") && !blend && picture.has_samples();
+    let vanishes = of.any(|c| c.takes_part("vanish") && !(dithers && c.takes_part("samples")));
     let [is_mixed, is_tinted, is_masked_wide] =
         ["outline_mixed", "outline_tint", "outline_width_mask"].map(|option| of.is_on(option));
     // The surface's shading is needed: for its colour, its alpha or its cut-outs.
     let shaded = is_mixed || vanishes || of.alpha != AlphaMode::Opaque;
     // A plain colour needs nothing of the surface but the UVs of its mask: fewer pipelines.
     let is_plain = !shaded && !is_tinted;
-    let keep = |about: &About| match about.key {
-        SECTION => true,
-        "uv_animation" if is_plain => is_masked_wide,
-        "dither_fade" if is_plain => dithers,
-        _ => about.on_line && !is_plain,
+    let moves_mask = |c: &Component| is_masked_wide && c.takes_part("vertex_uv");
+    let keep = |c: &Component| {
+        let of_plain = moves_mask(c) || (dithers && c.takes_part("samples"));
+        c.about.key == SECTION || if is_plain { of_plain } else { c.about.on_line }
     };
     let recipe = of
         .recipe("outline", colors, keep)

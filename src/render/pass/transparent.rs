@@ -10,7 +10,7 @@ use crate::render::variants::{Drawn, Request};
 /// What draws a material.
 pub(crate) fn request(picture: &Picture<'_>, of: &Composition, material: &Material, colors: bool) -> Request {
     // What is blended fades by its alpha.
-    let recipe = of.recipe("transparent", colors, |_| true).with("dither_samples", of.has("dither_fade"));
+    let recipe = of.recipe("transparent", colors, |_| true).with("dither_samples", true);
     let write_depth = material.alpha.write_depth;
     picture.request(recipe, Drawing { cull: surface_cull(material), blend: true, write_depth, mark: Mark::None })
 }

@@ -1,9 +1,10 @@
 //! What will look wrong though the file is sound: advice beside the warnings of the import.
 
+use hikage::material::Encoding;
 use hikage::material::{AlphaMode, Origin, Shading};
 use hikage::scene::{Primitive, Role, Scene, Warning};
 
-use super::memory::{Use, image_uses};
+use super::memory::image_uses;
 
 /// Share of the UV area that must be turned the other way before UVs count as mirrored.
 const MIRRORED_SHARE: f64 = 0.25;
@@ -29,7 +30,7 @@ pub(super) fn advice(scene: &Scene) -> Vec<Warning> {
         }
     }
     for (index, uses) in image_uses(scene).iter().enumerate() {
-        if uses.contains(&Use::Srgb) && uses.contains(&Use::Linear) {
+        if uses.contains(&Encoding::Srgb) && uses.contains(&Encoding::Linear) {
             say(format!("/images/{index}"), "is used both as a colour and as data: one of the two is likely a mistake");
         }
         if uses.is_empty() {

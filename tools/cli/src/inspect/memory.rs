@@ -3,30 +3,10 @@
 use hikage::material::{Encoding, Material};
 use hikage::scene::{Image, Primitive, Scene};
 
-/// How an image is decoded when it is sampled.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub(super) enum Use {
-    /// A colour.
-    Srgb,
-    /// Data: a mask, a normal map.
-    Linear,
-}
-
-impl From<Encoding> for Use {
-    fn from(encoding: Encoding) -> Self {
-        match encoding {
-            Encoding::Srgb => Self::Srgb,
-            Encoding::Linear => Self::Linear,
-        }
-    }
-}
-
 /// For each image: how it is used, each way once. An image that is used both ways is uploaded twice.
-pub(super) fn image_uses(scene: &Scene) -> Vec<Vec<Use>> {
+pub(super) fn image_uses(scene: &Scene) -> Vec<Vec<Encoding>> {
     let mut uses = vec![Vec::new(); scene.images.len()];
-    for (_, texture, encoding) in scene.materials.iter().flat_map(Material::textures) {
-        let how = Use::from(encoding);
+    for (_, texture, how) in scene.materials.iter().flat_map(Material::textures) {
         if let Some(list) = scene.textures.get(texture).and_then(|t| uses.get_mut(t.image))
             && !list.contains(&how)
         {

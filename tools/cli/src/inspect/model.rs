@@ -1,12 +1,13 @@
 //! The facts about a model, gathered once for both the text and the JSON.
 
+use hikage::material::Encoding;
 use std::collections::BTreeMap;
 
 use hikage::material::Material;
 use hikage::scene::{Meta, Role, Scene, Source, Warning};
 use serde::Serialize;
 
-use super::memory::{Use, geometry_bytes, image_uses, mipped_bytes};
+use super::memory::{geometry_bytes, image_uses, mipped_bytes};
 
 /// Everything that `hikage inspect` says about a model.
 #[derive(Serialize)]
@@ -74,7 +75,7 @@ pub(super) struct TextureSummary<'a> {
     pub(super) width: u32,
     pub(super) height: u32,
     pub(super) bits: u8,
-    pub(super) uses: Vec<Use>,
+    pub(super) uses: Vec<Encoding>,
     pub(super) gpu_bytes: u64,
 }
 
