@@ -6,9 +6,8 @@ import package::material::{frost_flakes, frost_flakes_sampler, material};
 
 struct Frost {
     color: vec3f,
-    // Metres.
-    height: f32,
-    softness: f32,
+    height_m: f32,
+    softness_m: f32,
     flakes_uv: UvTransform,
 }
 
@@ -16,11 +15,11 @@ struct Frost {
 fn frost_shine(s: Surface, shaded: Shaded) -> Shaded {
     var l = shaded;
     let m = &material.frost;
-    var reach = m.height;
+    var reach = m.height_m;
     @if(frost_flakes) reach += (textureSample(
         frost_flakes, frost_flakes_sampler, texture_uv(s.uv, m.flakes_uv)
-    ).r - 0.5) * m.softness * 2.0;
-    let ice = 1.0 - smoothstep(reach - m.softness, reach + m.softness, s.at.world_position.y);
+    ).r - 0.5) * m.softness_m * 2.0;
+    let ice = 1.0 - smoothstep(reach - m.softness_m, reach + m.softness_m, s.at.world_position.y);
     l.direct = mix(l.direct, m.color * l.light * mix(0.6, 1.0, l.shading), ice);
     @if(channel_frost) shown = vec3f(ice);
     return l;

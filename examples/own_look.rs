@@ -4,7 +4,7 @@
 //! cargo run --example own_look [MODEL.vrm]
 //! ```
 
-use hikage::material::{Block, Section, Surroundings, TextureRef, register};
+use hikage::material::{Section, TextureRef, register};
 use hikage::scene::Framing;
 use hikage::{Channel, Error, Gpu, Look, Renderer, View, import, picture};
 
@@ -32,13 +32,7 @@ hikage::section! {
     }
 }
 
-impl Section for Frost {
-    fn put(&self, gpu: &mut Block<'_>, _: &Surroundings<'_>) {
-        gpu.put("color", self.color);
-        gpu.put("height", self.height_m);
-        gpu.put("softness", self.softness_m);
-    }
-}
+impl Section for Frost {}
 
 fn main() -> Result<(), Error> {
     // From now on look files know it: `[role.cloth.frost]`.

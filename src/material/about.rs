@@ -97,6 +97,16 @@ impl Inner {
         };
         self.fields.iter().flat_map(of).collect()
     }
+
+    /// Names of the numbers in it, after those of the parts that hold them: `blink_low`.
+    pub(crate) fn numbers(&self) -> Vec<String> {
+        let of = |field: &Field| match field.kind {
+            Kind::Number { .. } => vec![field.name.to_owned()],
+            Kind::Part(inner) => inner.numbers().iter().map(|n| format!("{}_{n}", field.name)).collect(),
+            _ => Vec::new(),
+        };
+        self.fields.iter().flat_map(of).collect()
+    }
 }
 
 impl Kind {

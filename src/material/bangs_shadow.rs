@@ -1,7 +1,6 @@
 //! Shadow of the bangs, as a face receives it.
 
 use super::{Options, Section, Surroundings};
-use crate::render::layout::Block;
 
 crate::section! {
     /// How a surface shows the shadow that bangs, hands, clothes and other characters cast on it. Casters, direction and
@@ -28,12 +27,6 @@ crate::section! {
 }
 
 impl Section for BangsShadow {
-    fn put(&self, gpu: &mut Block<'_>, _: &Surroundings<'_>) {
-        gpu.put("color", self.color);
-        gpu.put("strength", self.strength);
-        gpu.put("edges", self.edges);
-    }
-
     fn options(&self, on: &mut Options, _: &Surroundings<'_>) {
         on.set("bangs_lids", self.lids);
     }

@@ -18,7 +18,6 @@ crate::section! {
 impl Section for Base {
     fn put(&self, gpu: &mut Block<'_>, of: &Surroundings<'_>) {
         let alpha = of.material.alpha;
-        gpu.put("color", self.color);
         gpu.put("alpha_cutoff", if alpha.mode == AlphaMode::Mask { alpha.cutoff } else { 0.5 });
     }
 

@@ -1,7 +1,6 @@
 //! What a material has to do with the shadow of a character on itself.
 
 use super::{Section, Surroundings};
-use crate::render::layout::Block;
 
 crate::section! {
     /// Part of a material in [`SelfShadow`](crate::scene::SelfShadow). Received shadow is shade: it has exactly the shade's
@@ -24,10 +23,6 @@ crate::section! {
 }
 
 impl Section for CastShadow {
-    fn put(&self, gpu: &mut Block<'_>, _: &Surroundings<'_>) {
-        gpu.put("received", self.received);
-    }
-
     fn is_on(&self, of: &Surroundings<'_>) -> bool {
         of.self_shadow && self.received > 0.0
     }

@@ -39,12 +39,6 @@ impl Section for DepthRim {
     fn put(&self, gpu: &mut Block<'_>, _: &Surroundings<'_>) {
         gpu.put("color", self.color.map(|c| c * self.strength));
         gpu.put("shade_color", self.shade_color.map(|c| c * self.strength));
-        gpu.put("width", self.width_px);
-        gpu.put("threshold", self.threshold_m);
-        gpu.put("side", self.light_side);
-        gpu.put("fade", self.fade_m);
-        gpu.put("tint", self.tint);
-        gpu.put("punctual", self.punctual);
     }
 
     fn options(&self, on: &mut Options, _: &Surroundings<'_>) {

@@ -1,7 +1,6 @@
 //! A cut stone that throws light back: diamond.
 
 use super::{Section, Surroundings};
-use crate::render::layout::Block;
 
 crate::section! {
     /// A brilliant: rays are refracted in, thrown back and forth between facets as often as total reflection keeps them in, and
@@ -38,14 +37,6 @@ crate::section! {
 }
 
 impl Section for Diamond {
-    fn put(&self, gpu: &mut Block<'_>, _: &Surroundings<'_>) {
-        gpu.put("ior", self.ior);
-        gpu.put("bounces", self.bounces);
-        gpu.put("facets", self.facets as f32);
-        gpu.put("color", self.color);
-        gpu.put("brilliance", self.brilliance);
-    }
-
     fn is_on(&self, of: &Surroundings<'_>) -> bool {
         of.material.gem.is_none()
     }

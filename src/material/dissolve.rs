@@ -27,9 +27,6 @@ crate::section! {
 impl Section for Dissolve {
     fn put(&self, gpu: &mut Block<'_>, of: &Surroundings<'_>) {
         let cells = of.metres_per_uv.map(|m| (m / self.cell_m).round().clamp(1.0, 256.0) as i32);
-        gpu.put("amount", self.amount);
-        gpu.put("border", self.border);
         gpu.put("cells", cells);
-        gpu.put("color", self.color);
     }
 }

@@ -1,7 +1,6 @@
 //! Fading without blending.
 
-use super::{Section, Surroundings};
-use crate::render::layout::Block;
+use super::Section;
 
 crate::section! {
     /// Leaves out samples of pixels in an even pattern, or whole pixels where each has one sample: a surface fades without
@@ -17,9 +16,4 @@ crate::section! {
     }
 }
 
-impl Section for DitherFade {
-    fn put(&self, gpu: &mut Block<'_>, _: &Surroundings<'_>) {
-        gpu.put("opacity", self.opacity);
-        gpu.put("near_m", self.near_m);
-    }
-}
+impl Section for DitherFade {}

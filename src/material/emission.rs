@@ -1,7 +1,6 @@
 //! Light of its own.
 
 use super::{Options, Section, Surroundings, TextureRef};
-use crate::render::layout::Block;
 use crate::scene::ColorTarget;
 
 crate::section! {
@@ -36,15 +35,6 @@ crate::part! {
 }
 
 impl Section for Emission {
-    fn put(&self, gpu: &mut Block<'_>, _: &Surroundings<'_>) {
-        let blink = self.blink.unwrap_or_default();
-        gpu.put("color", self.color);
-        gpu.put("scroll_per_s", self.scroll_per_s);
-        gpu.put("blink_low", blink.low);
-        gpu.put("blink_sharpness", blink.sharpness);
-        gpu.put("blink_period", blink.period_s);
-    }
-
     fn options(&self, on: &mut Options, _: &Surroundings<'_>) {
         on.set("emission_scroll", self.texture.is_some() && self.scroll_per_s != [0.0; 2]);
         on.set("emission_blink", self.blink.is_some());

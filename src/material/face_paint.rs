@@ -1,7 +1,6 @@
 //! Drawn over a face: blush, lines in its shadow, and the line of the nose in profile.
 
-use super::{Section, Surroundings, TextureRef};
-use crate::render::layout::Block;
+use super::{Section, TextureRef};
 
 crate::section! {
     /// Three drawings in one map that multiply the colour of the face.
@@ -29,13 +28,4 @@ crate::section! {
     }
 }
 
-impl Section for FacePaint {
-    fn put(&self, gpu: &mut Block<'_>, _: &Surroundings<'_>) {
-        gpu.put("blush_color", self.blush_color);
-        gpu.put("blush_strength", self.blush_strength);
-        gpu.put("line_color", self.line_color);
-        gpu.put("shadow_line_strength", self.shadow_line_strength);
-        gpu.put("nose_line_yaw", self.nose_line_yaw_rad);
-        gpu.put("nose_line_strength", self.nose_line_strength);
-    }
-}
+impl Section for FacePaint {}

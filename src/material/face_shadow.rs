@@ -55,8 +55,6 @@ impl Section for FaceShadow {
     fn put(&self, gpu: &mut Block<'_>, of: &Surroundings<'_>) {
         let pitches = self.map_in(of).map_or([0.0].as_slice(), |m| m.pitches_rad.as_slice());
         let placed: [f32; MAX_PITCHES] = std::array::from_fn(|i| pitches.get(i).copied().unwrap_or(0.0));
-        gpu.put("softness", self.softness);
-        gpu.put("overhead_fade", self.overhead_fade);
         gpu.put("cosine", f32::from(u8::from(self.angle == AngleMapping::Cosine)));
         gpu.put("pitches", placed);
         gpu.put("pitch_count", pitches.len().clamp(1, MAX_PITCHES) as u32);

@@ -45,17 +45,9 @@ crate::section! {
 impl Section for Fire {
     fn put(&self, gpu: &mut Block<'_>, _: &Surroundings<'_>) {
         let [rim, body, heart] = self.colors.map(|color| color.map(|c| c * self.strength));
-        gpu.put("erosion", self.erosion);
-        gpu.put("softness", self.softness);
         gpu.put("rim", rim);
         gpu.put("body", body);
         gpu.put("heart", heart);
-        gpu.put("turbulence", self.turbulence);
-        gpu.put("sway", self.sway);
-        gpu.put("additive", self.additive);
-        gpu.put("edges", self.edges);
-        gpu.put("period", self.period_s);
-        gpu.put("cells", self.cells as i32);
     }
 
     fn is_on(&self, of: &Surroundings<'_>) -> bool {

@@ -1,7 +1,6 @@
 //! Fluff: a soft coat of short hair.
 
-use super::{Section, Surroundings};
-use crate::render::layout::Block;
+use super::Section;
 
 /// Most shells of a coat.
 pub const MAX_SHELLS: u32 = 24;
@@ -42,16 +41,4 @@ crate::section! {
     }
 }
 
-impl Section for Fluff {
-    fn put(&self, gpu: &mut Block<'_>, _: &Surroundings<'_>) {
-        gpu.put("shells", self.shells as f32);
-        gpu.put("length", self.length_m);
-        gpu.put("density", self.density);
-        gpu.put("softness", self.softness);
-        gpu.put("gravity", self.gravity_m);
-        gpu.put("wind", self.wind_m);
-        gpu.put("period", self.wind_period_s);
-        gpu.put("root", self.root_light);
-        gpu.put("ruffle", self.ruffle);
-    }
-}
+impl Section for Fluff {}

@@ -33,10 +33,6 @@ crate::section! {
 impl Section for FurDetail {
     fn put(&self, gpu: &mut Block<'_>, _: &Surroundings<'_>) {
         let [shade, light] = self.terminator;
-        gpu.put("normal_scale", self.normal_scale);
-        gpu.put("blur_levels", self.blur_levels);
-        gpu.put("terminator", self.terminator);
         gpu.put("softness", self.softness.clamp(1e-4, ((light - shade) * 0.5).max(1e-4)));
-        gpu.put("shares", self.shares);
     }
 }

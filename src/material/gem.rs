@@ -1,7 +1,6 @@
 //! A stone that is seen into: amber, ruby, jade.
 
-use super::{Section, Surroundings, TextureRef};
-use crate::render::layout::Block;
+use super::{Section, TextureRef};
 
 crate::section! {
     /// A clear or cloudy body: light is refracted into it, absorbed on its way, gathered on the far side, and shows what is
@@ -48,15 +47,4 @@ crate::section! {
     }
 }
 
-impl Section for Gem {
-    fn put(&self, gpu: &mut Block<'_>, _: &Surroundings<'_>) {
-        gpu.put("ior", self.ior);
-        gpu.put("color", self.color);
-        gpu.put("cloudiness", self.cloudiness);
-        gpu.put("depth_uv", self.depth_m * self.uv_per_m);
-        gpu.put("layers", self.layers as f32);
-        gpu.put("caustic", self.caustic);
-        gpu.put("focus", self.caustic_focus);
-        gpu.put("polish", self.polish);
-    }
-}
+impl Section for Gem {}

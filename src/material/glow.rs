@@ -1,7 +1,6 @@
 //! Light that blooms.
 
-use super::{Section, Surroundings};
-use crate::render::layout::Block;
+use super::Section;
 
 crate::section! {
     /// What of a surface [`Bloom`](crate::scene::Bloom) spreads around it; nothing else blooms.
@@ -15,9 +14,4 @@ crate::section! {
     }
 }
 
-impl Section for Glow {
-    fn put(&self, gpu: &mut Block<'_>, _: &Surroundings<'_>) {
-        gpu.put("emission", self.emission);
-        gpu.put("highlight", self.highlight);
-    }
-}
+impl Section for Glow {}

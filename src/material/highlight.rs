@@ -1,7 +1,6 @@
 //! A painted highlight that moves with view and light, as a whole: on hair, nose and lips.
 
 use super::{Options, Section, Surroundings, TextureRef};
-use crate::render::layout::Block;
 
 crate::section! {
     /// A highlight painted over the surface and moved in its texture coordinates, by the same amount everywhere, so that it
@@ -43,20 +42,6 @@ crate::section! {
 }
 
 impl Section for Highlight {
-    fn put(&self, gpu: &mut Block<'_>, _: &Surroundings<'_>) {
-        gpu.put("color", self.color);
-        gpu.put("strength", self.strength);
-        gpu.put("turn_u", self.turn_u);
-        gpu.put("light_v", self.light_v);
-        gpu.put("view_v", self.view_v);
-        gpu.put("second_color", self.second_color);
-        gpu.put("second_strength", self.second_strength);
-        gpu.put("second_motion", self.second_motion);
-        gpu.put("breakup", self.breakup);
-        gpu.put("in_shade", self.in_shade);
-        gpu.put("facing", self.facing);
-    }
-
     fn options(&self, on: &mut Options, _: &Surroundings<'_>) {
         let second = self.second_strength > 0.0;
         on.set("highlight_second", second);

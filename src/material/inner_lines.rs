@@ -26,8 +26,6 @@ crate::section! {
 
 impl Section for InnerLines {
     fn put(&self, gpu: &mut Block<'_>, _: &Surroundings<'_>) {
-        gpu.put("tint", self.color);
-        gpu.put("width", self.width_px);
         gpu.put("steps", [self.step_m, self.fold_rad.cos()]);
         gpu.put("parts", f32::from(u8::from(self.between_parts)));
     }

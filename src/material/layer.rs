@@ -25,6 +25,5 @@ crate::section! {
 impl Section for Layer {
     fn put(&self, gpu: &mut Block<'_>, _: &Surroundings<'_>) {
         gpu.put("pull", self.index as f32 * STEP_M);
-        gpu.put("stay_lit", self.stay_lit);
     }
 }

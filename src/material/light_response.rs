@@ -1,7 +1,6 @@
 //! How much of the scene's light a material takes.
 
-use super::{Section, Surroundings};
-use crate::render::layout::Block;
+use super::Section;
 
 crate::section! {
     /// Keeps a character readable in any light: bounds on its luminance, and how far its colour counts.
@@ -17,9 +16,4 @@ crate::section! {
     }
 }
 
-impl Section for LightResponse {
-    fn put(&self, gpu: &mut Block<'_>, _: &Surroundings<'_>) {
-        gpu.put("bounds", [self.min, self.max]);
-        gpu.put("monochrome", self.monochrome);
-    }
-}
+impl Section for LightResponse {}

@@ -1,7 +1,6 @@
 //! Matcap: a picture of light on a sphere, looked up by the normal seen from the camera.
 
 use super::{Section, Surroundings, TextureRef};
-use crate::render::layout::Block;
 use crate::scene::ColorTarget;
 
 crate::section! {
@@ -17,10 +16,6 @@ crate::section! {
 }
 
 impl Section for Matcap {
-    fn put(&self, gpu: &mut Block<'_>, _: &Surroundings<'_>) {
-        gpu.put("color", self.color);
-    }
-
     fn is_on(&self, of: &Surroundings<'_>) -> bool {
         self.color != [0.0; 3] || of.driven.shifts(ColorTarget::MatcapColor)
     }

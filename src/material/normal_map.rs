@@ -1,7 +1,6 @@
 //! Normal map.
 
 use super::{Section, Surroundings, TextureRef};
-use crate::render::layout::Block;
 
 crate::section! {
     /// Tangent-space normal map, glTF convention (+Y up), linear.
@@ -16,10 +15,6 @@ crate::section! {
 }
 
 impl Section for NormalMap {
-    fn put(&self, gpu: &mut Block<'_>, _: &Surroundings<'_>) {
-        gpu.put("scale", self.scale);
-    }
-
     fn is_on(&self, of: &Surroundings<'_>) -> bool {
         // Painted fur brings normals of its own.
         of.material.fur_detail.is_none()

@@ -119,13 +119,6 @@ impl Outline {
 impl Section for Outline {
     fn put(&self, gpu: &mut Block<'_>, _: &Surroundings<'_>) {
         let tint = self.tint.unwrap_or_default();
-        gpu.put("color", self.color);
-        gpu.put("width", self.width.value());
-        gpu.put("lighting_mix", self.lighting_mix);
-        gpu.put("gamma", tint.gamma);
-        gpu.put("tint", tint.factor);
-        gpu.put("push", self.push_m);
-        gpu.put("bounds", self.clamp_px.unwrap_or_default());
         gpu.put("shift", hue_saturation_columns(tint.hue_rad, tint.saturation));
         gpu.put("parts", tint.parts.unwrap_or_default().colors.map(|[r, g, b]| [r, g, b, 1.0]));
     }

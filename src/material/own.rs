@@ -8,7 +8,7 @@ use serde::{Serialize, de::DeserializeOwned};
 use toml::Table;
 
 use super::{About, Declared, LISTED, Material, Section};
-use crate::render::shaders;
+use crate::render::check_section;
 use crate::{Error, Result};
 
 /// A section of an application, in a material.
@@ -132,7 +132,7 @@ where
     if about.wgsl.is_none() {
         return fault("has no WGSL; expected wgsl: Some(include_str!(\"…\")) in its declaration");
     }
-    shaders::check_section::<S>()?;
+    check_section::check_section::<S>()?;
     REGISTERED.write().unwrap_or_else(PoisonError::into_inner).push(Registered {
         about,
         table: |material| Table::try_from(material.own::<S>().cloned().unwrap_or_default()).unwrap_or_default(),

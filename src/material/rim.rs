@@ -1,7 +1,6 @@
 //! Rim light of MToon: a Fresnel-shaped band and the mask that it shares with the matcap.
 
 use super::{Options, Section, Surroundings, TextureRef};
-use crate::render::layout::Block;
 use crate::scene::ColorTarget;
 
 crate::section! {
@@ -29,13 +28,6 @@ impl Rim {
 }
 
 impl Section for Rim {
-    fn put(&self, gpu: &mut Block<'_>, _: &Surroundings<'_>) {
-        gpu.put("color", self.color);
-        gpu.put("fresnel_power", self.fresnel_power);
-        gpu.put("lift", self.lift);
-        gpu.put("lighting_mix", self.lighting_mix);
-    }
-
     fn options(&self, on: &mut Options, of: &Surroundings<'_>) {
         on.set("rim_color", self.shows(of));
     }

@@ -80,8 +80,12 @@ pub trait Fields: Part + fmt::Debug + Send + Sync + 'static {
 
 /// A section: what its declaration cannot say.
 pub trait Section: Fields {
-    /// Writes every member of its WGSL struct, by name. Transforms of textures (`map_uv` of `map`) are written already.
-    fn put(&self, gpu: &mut Block<'_>, of: &Surroundings<'_>);
+    /// Writes what its WGSL struct has beside its fields, by name: what is derived from them. Members that are named as fields
+    /// (`width_px`; `blink_low` for `low` in the part `blink`) hold them already, and `map_uv` the transform of the texture
+    /// `map`.
+    fn put(&self, gpu: &mut Block<'_>, of: &Surroundings<'_>) {
+        let _ = (gpu, of);
+    }
 
     /// Switches options of its shader on, beside those of its textures.
     fn options(&self, on: &mut Options, of: &Surroundings<'_>) {

@@ -73,13 +73,10 @@ impl Section for ShadeRamp {
             (row.min(rows - 1) as f32 + 0.5) / rows as f32
         };
         let shift = |set: usize| hue_saturation_columns(self.shade_hue_rad[set], self.shade_saturation[set]);
-        gpu.put("terminator", self.terminator_color);
         gpu.put("v", row_v(maps.row));
-        gpu.put("edges", self.edges);
         gpu.put("part_v", maps.part_rows.map(row_v));
         gpu.put("shift_warm", shift(0));
         gpu.put("shift_cool", shift(1));
-        gpu.put("width", self.width);
     }
 
     fn options(&self, on: &mut Options, _: &Surroundings<'_>) {

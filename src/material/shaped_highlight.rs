@@ -55,18 +55,9 @@ crate::section! {
 
 impl Section for ShapedHighlight {
     fn put(&self, gpu: &mut Block<'_>, _: &Surroundings<'_>) {
-        gpu.put("color", self.color);
-        gpu.put("strength", self.strength);
-        gpu.put("translate", self.translate);
-        gpu.put("split", self.split);
         gpu.put("turn", [self.rotate_rad.cos(), self.rotate_rad.sin()]);
-        gpu.put("squash", self.squash);
         gpu.put("size_sin", self.size_rad.sin());
-        gpu.put("square", self.square);
-        gpu.put("in_shade", self.in_shade);
-        gpu.put("anisotropy", self.anisotropy);
         gpu.put("map_scale", 1.0 / self.map_width);
-        gpu.put("matcap_mix", self.matcap_mix);
     }
 
     fn options(&self, on: &mut Options, _: &Surroundings<'_>) {

@@ -30,9 +30,6 @@ crate::section! {
 
 impl Section for Sparkle {
     fn put(&self, gpu: &mut Block<'_>, _: &Surroundings<'_>) {
-        gpu.put("color", self.color);
-        gpu.put("spacing_px", self.spacing_px);
-        gpu.put("spread", self.spread);
         gpu.put("size_cos", self.size_rad.cos());
     }
 }

@@ -1,7 +1,6 @@
 //! Thin knit over skin.
 
-use super::{Section, Surroundings};
-use crate::render::layout::Block;
+use super::Section;
 
 crate::section! {
     /// A stocking: its yarn covers a share of the skin where it is seen face on, and more the more aslant it is seen. With T the
@@ -22,9 +21,4 @@ crate::section! {
     }
 }
 
-impl Section for Stocking {
-    fn put(&self, gpu: &mut Block<'_>, _: &Surroundings<'_>) {
-        gpu.put("color", self.color);
-        gpu.put("cover", self.cover);
-    }
-}
+impl Section for Stocking {}

@@ -3,7 +3,6 @@
 use serde::{Deserialize, Serialize};
 
 use super::{About, Options, Section, Surroundings, TextureRef, section::Held};
-use crate::render::layout::Block;
 
 /// Shading model.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -69,14 +68,6 @@ crate::section! {
 }
 
 impl Section for Toon {
-    fn put(&self, gpu: &mut Block<'_>, _: &Surroundings<'_>) {
-        gpu.put("shade_color", self.shade_color);
-        gpu.put("shift", self.shift);
-        gpu.put("shift_texture_scale", self.shift_texture_scale);
-        gpu.put("toony", self.toony);
-        gpu.put("gi_equalization", self.gi_equalization);
-    }
-
     fn options(&self, on: &mut Options, of: &Surroundings<'_>) {
         // One lookup serves both.
         on.set("shade_is_base", self.shade_texture.is_some() && self.shade_texture == of.material.base.texture);

@@ -1,7 +1,6 @@
 //! A gentle second band on the lit side of the border of light and shade.
 
 use super::{Options, Section, Surroundings};
-use crate::render::layout::Block;
 
 crate::section! {
     /// Light that passes into shade through a colour, as it does through skin: the lit colour is tinted where the surface is
@@ -23,12 +22,6 @@ crate::section! {
 }
 
 impl Section for Transition {
-    fn put(&self, gpu: &mut Block<'_>, _: &Surroundings<'_>) {
-        gpu.put("color", self.color);
-        gpu.put("strength", self.strength);
-        gpu.put("width", self.width);
-    }
-
     fn options(&self, on: &mut Options, _: &Surroundings<'_>) {
         on.set("soft", true);
     }

@@ -1,7 +1,6 @@
 //! UVs that scroll and turn over time (MToon).
 
 use super::{Section, Surroundings, TextureRef};
-use crate::render::layout::Block;
 
 crate::section! {
     /// UV animation of MToon; moves all textures but the matcap.
@@ -28,11 +27,6 @@ impl UvAnimation {
 }
 
 impl Section for UvAnimation {
-    fn put(&self, gpu: &mut Block<'_>, _: &Surroundings<'_>) {
-        gpu.put("scroll_per_s", [self.scroll_u_per_s, self.scroll_v_per_s]);
-        gpu.put("rotation_rad_per_s", self.rotation_rad_per_s);
-    }
-
     fn is_on(&self, _: &Surroundings<'_>) -> bool {
         self.is_active()
     }

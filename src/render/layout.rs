@@ -81,14 +81,29 @@ pub(crate) fn struct_texts(text: &str) -> impl Iterator<Item = String> {
 pub struct Block<'a> {
     layout: &'a Layout,
     bytes: &'a mut [u8],
-    /// A bit for each member that is written.
+    /// A bit for each member that is written, and for each that holds the field of its name.
     put: u128,
+    taken: u128,
+    /// Fields of another size than the member of their name: members and sizes.
+    unfit: Vec<(usize, usize)>,
     faults: Vec<String>,
 }
 
 impl<'a> Block<'a> {
     pub(crate) fn new(layout: &'a Layout, bytes: &'a mut [u8]) -> Self {
-        Self { layout, bytes, put: 0, faults: Vec::new() }
+        Self { layout, bytes, put: 0, taken: 0, unfit: Vec::new(), faults: Vec::new() }
+    }
+
+    /// Writes the numbers of a field into the member of its name, where there is one; nothing where it has none now.
+    pub(crate) fn take(&mut self, field: &str, value: &[u8]) {
+        let Some(index) = self.layout.index(field) else { return };
+        let Member { offset, size, .. } = self.layout.members[index];
+        if value.len() == size {
+            self.bytes[offset..offset + size].copy_from_slice(value);
+        } else if !value.is_empty() {
+            self.unfit.push((index, value.len()));
+        }
+        self.taken |= 1 << index;
     }
 
     /// Writes a member: a number, a vector as an array, a matrix as its columns with four numbers each.
@@ -111,8 +126,12 @@ impl<'a> Block<'a> {
 
     /// What is wrong: members that nobody wrote, that do not exist, or that are of another size.
     pub(crate) fn faults(self) -> Vec<String> {
-        let Self { layout, put, mut faults, .. } = self;
-        let missing = layout.members.iter().enumerate().filter(|(i, _)| put & (1 << i) == 0);
+        let Self { layout, put, taken, unfit, mut faults, .. } = self;
+        for (index, size) in unfit.into_iter().filter(|(index, _)| put & (1 << index) == 0) {
+            let member = &layout.members[index];
+            faults.push(format!("the member {} has {} bytes, its field {size}", member.name, member.size));
+        }
+        let missing = layout.members.iter().enumerate().filter(|(i, _)| (put | taken) & (1 << i) == 0);
         faults.extend(missing.map(|(_, m)| format!("nobody writes the member {}", m.name)));
         faults
     }
@@ -170,6 +189,22 @@ mod tests {
         let words: Vec<f32> = bytemuck::pod_collect_to_vec(bytes);
         assert_eq!(words[..4], [1.0, 2.0, 3.0, 4.0]);
         assert_eq!((words[4], words[16], words.len()), (5.0, 6.0, 24));
+    }
+
+    #[test]
+    fn members_hold_the_fields_of_their_names() {
+        let layout = Layout::of(TEXT, "Some");
+        let mut bytes = vec![0; layout.size];
+        let mut block = Block::new(&layout, &mut bytes);
+        block.take("a", bytemuck::bytes_of(&[1f32, 2.0, 3.0]));
+        block.take("b", bytemuck::bytes_of(&1f32));
+        block.take("c", &[]);
+        block.take("d", bytemuck::bytes_of(&[1f32; 3]));
+        block.take("unknown", &[0; 4]);
+        // What a section derives takes the place of the field.
+        block.put("b", 2f32);
+        assert_eq!(block.faults(), ["the member d has 32 bytes, its field 12"]);
+        assert_eq!(bytemuck::pod_collect_to_vec::<u8, f32>(&bytes)[..4], [1.0, 2.0, 3.0, 2.0]);
     }
 
     #[test]

@@ -1,5 +1,7 @@
 //! A material for the GPU: which sections are on, their bytes, their textures, and the recipes of its shaders.
 
+use std::collections::BTreeMap;
+
 use super::layout::Block;
 use super::shaders::{Bound, Places, Recipe, Shaders};
 use crate::material::{About, AlphaMode, Kind, Leaf, Options, Read, Surroundings, TextureRef, UvTransform, Walk};
@@ -186,12 +188,25 @@ pub(crate) fn bytes(places: &Places, of: &Surroundings<'_>) -> Result<Vec<u8>> {
         let Some((offset, layout)) = places.of(about.key) else { continue };
         let names = about.inner.textures();
         let mut transforms = vec![TextureRef::default(); names.len()];
+        // Those of parts that are missing stay 0.
+        let mut numbers: BTreeMap<String, Vec<u8>> =
+            about.inner.numbers().into_iter().map(|n| (n, Vec::new())).collect();
         section.walk_fields(&mut Walk::new(&mut |path, _, leaf| {
-            if let (Leaf::Texture(texture), Some(i)) = (leaf, names.iter().position(|n| path.last() == Some(n))) {
-                transforms[i] = *texture;
+            let mut number = |value: [u8; 4]| numbers.entry(path.join("_")).or_default().extend(value);
+            match leaf {
+                Leaf::F32(x) => number(x.to_ne_bytes()),
+                Leaf::U32(x) => number(x.to_ne_bytes()),
+                Leaf::I32(x) => number(x.to_ne_bytes()),
+                Leaf::Texture(texture) => {
+                    if let Some(i) = names.iter().position(|n| path.last() == Some(n)) {
+                        transforms[i] = *texture;
+                    }
+                }
+                Leaf::FaceMap(_) => {}
             }
         }));
         let mut block = Block::new(layout, &mut bytes[offset..offset + layout.size]);
+        numbers.iter().for_each(|(field, value)| block.take(field, value));
         for (name, texture) in names.iter().zip(&transforms) {
             let member = format!("{name}_uv");
             if layout.has(&member) {
@@ -201,6 +216,7 @@ pub(crate) fn bytes(places: &Places, of: &Surroundings<'_>) -> Result<Vec<u8>> {
         section.put(&mut block, of);
         if let Some(message) = block.faults().into_iter().next() {
             let (path, pointer) = (format!("{}.wgsl", about.key), format!("struct {}", about.name));
+            let message = format!("{message}; its fields are {}", about.inner.numbers().join(", "));
             return Err(Error::Input { path, pointer, message });
         }
     }

@@ -1,5 +1,6 @@
 //! The renderer: a frame as one list of calls.
 
+pub(crate) mod check_section;
 mod check_wgsl;
 mod clock;
 pub(crate) mod draw_list;

@@ -9,11 +9,11 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use wesl::{CompileOptions, ModulePath, NoMangler, ResolveError, Resolver};
 
+use super::check_section::fault_in;
 pub use super::check_wgsl::{MAX_WGSL_BYTES, ShaderSummary, check};
 use super::draw_list::recipes_of;
 use super::layout::{Layout, struct_texts};
-use super::material::bytes;
-use crate::material::{About, Declared, LISTED, Material, Options, Section, Surroundings, out_of_range, registered};
+use crate::material::{About, LISTED, Material, Options, registered};
 use crate::scene::Scene;
 use crate::{Error, Result};
 
@@ -61,8 +61,8 @@ enum Fold {
 }
 
 /// A stage of shading: what a function `SECTION_STAGE` takes and gives.
-struct Stage {
-    name: &'static str,
+pub(crate) struct Stage {
+    pub name: &'static str,
     takes: &'static str,
     gives: &'static str,
     fold: Fold,
@@ -73,7 +73,7 @@ const fn stage(name: &'static str, takes: &'static str, gives: &'static str, fol
 }
 
 /// All stages; the first ones are of vertices.
-const STAGES: &[Stage] = &[
+pub(crate) const STAGES: &[Stage] = &[
     stage("place", "clip: vec4f", "vec4f", Fold::Chain),
     stage("vary", "v: VertexInput, given: Varying", "Varying", Fold::Chain),
     stage("vertex_uv", "uv: vec4f", "vec4f", Fold::Chain),
@@ -222,7 +222,7 @@ impl Shaders {
         Self::with(registered().into_iter().map(|r| r.about).collect())
     }
 
-    fn with(own: Vec<&'static About>) -> Result<Self> {
+    pub fn with(own: Vec<&'static About>) -> Result<Self> {
         let sections: Vec<&'static About> = LISTED.iter().copied().chain(own.iter().copied()).collect();
         let hooks = sections.iter().map(|about| (about.key, hooks_of(about))).collect();
         Ok(Self { places: Arc::new(Places::new(&sections)?), hooks, own, texts: Mutex::default() })
@@ -432,7 +432,7 @@ fn has_function(text: &str, key: &str, stage: &str) -> bool {
     text.contains(&format!("fn {key}_{stage}("))
 }
 
-fn hooks_of(about: &About) -> Vec<&'static str> {
+pub(crate) fn hooks_of(about: &About) -> Vec<&'static str> {
     let model = file(&format!("model/{}", about.key));
     let has = |stage: &&Stage| {
         has_function(look_text(about), about.key, stage.name)
@@ -482,88 +482,4 @@ fn bindings(module: &naga::Module) -> Vec<Binding> {
         .collect();
     list.sort();
     list
-}
-
-/// The front end's error, at the line of the section that wrote it.
-fn fault_in(sections: &[&'static About], text: &str, error: &naga::front::wgsl::ParseError) -> Error {
-    let line = error.location(text).and_then(|l| text.lines().nth(l.line_number as usize - 1)).unwrap_or_default();
-    located(sections, text, line, error.message())
-}
-
-/// Where a line of a linked text comes from.
-fn located(sections: &[&'static About], text: &str, line: &str, message: &str) -> Error {
-    let bare = |s: &str| s.chars().filter(|c| !c.is_whitespace() && !"();,".contains(*c)).collect::<String>();
-    let wanted = bare(line);
-    let found = sections.iter().filter(|a| a.wgsl.is_some()).find_map(|about| {
-        let source = about.wgsl?;
-        let at = source.lines().position(|l| !wanted.is_empty() && bare(l) == wanted).or_else(|| {
-            // The linker writes statements anew: the function is near enough.
-            let before = &text[..text.find(line)?];
-            let function = &before[before.rfind("\nfn ")? + 1..];
-            let name = function.split('(').next()?;
-            source.lines().position(|l| l.starts_with(name))
-        });
-        Some((format!("{}.wgsl", about.key), format!("line {}", at? + 1)))
-    });
-    let (path, pointer) = found.unwrap_or_else(|| ("wgsl".to_owned(), "linked text".to_owned()));
-    Error::Input { path, pointer, message: format!("{message}: {}", line.trim()) }
-}
-
-/// What a section may ask for: members of the varying, and what the prepass draws.
-fn known_needs() -> Vec<&'static str> {
-    let members = file("bind/varying").lines().filter_map(|line| {
-        let (option, member) = line.trim().strip_prefix("@if(")?.split_once(") ")?;
-        member.starts_with("@location").then_some(option)
-    });
-    members.chain(["prepass", "prepass_surfaces"]).collect()
-}
-
-/// Links and validates a section of an application in a toon surface, with every option off and with its textures.
-pub(crate) fn check_section<S: Section + Declared + Clone + Default + PartialEq>() -> Result<()> {
-    let about = S::ABOUT;
-    let refuse = |message: String| {
-        let (path, pointer) = (format!("{}.wgsl", about.key), format!("section {}", about.key));
-        Err(Error::Input { path, pointer, message })
-    };
-    let known = known_needs();
-    if let Some(need) = about.needs.iter().find(|n| !known.contains(n)) {
-        return refuse(format!("needs {need:?}, which there is not; there are: {}", known.join(", ")));
-    }
-    if let Some((key, message)) = out_of_range(&mut S::default()) {
-        return refuse(format!("the default of {key}: {message}"));
-    }
-    if hooks_of(about).is_empty() {
-        let names: Vec<String> = STAGES.iter().map(|s| format!("{}_{}", about.key, s.name)).collect();
-        return refuse(format!("no function of it is hooked into a stage; expected one of: {}", names.join(", ")));
-    }
-    let shaders = Shaders::with(registered().into_iter().map(|r| r.about).chain([about]).collect())?;
-    let base = LISTED.iter().copied().filter(|a| ["base", "toon"].contains(&a.key));
-    let mut recipe = Recipe { sections: base.chain([about]).collect(), ..Recipe::plain("opaque") };
-    for option in ["lit", "normal", "world", "uv"].iter().chain(about.needs) {
-        recipe.options.set(*option, true);
-    }
-    for field in about.inner.fields.iter().filter(|f| matches!(f.kind, crate::material::Kind::Texture(_))) {
-        let name = format!("{}_{}", about.key, field.name);
-        recipe.options.set(name.clone(), true);
-        recipe.textures.push(Bound { name, is_array: false });
-    }
-    let mut material = Material::default();
-    material.set_own(Some(S::default()));
-    bytes(&shaders.places, &Surroundings::alone(&material))?;
-    let linked = shaders.linked(&recipe)?;
-    let module =
-        naga::front::wgsl::parse_str(&linked.text).map_err(|e| fault_in(&recipe.sections, &linked.text, &e))?;
-    let mut validator =
-        naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::empty());
-    validator.validate(&module).map(|_| ()).map_err(|e| {
-        // Of the function, the statement and the expression at fault, the last one is the shortest.
-        let spans = e.spans().map(|(span, _)| *span).filter(naga::Span::is_defined);
-        let at = spans.min_by_key(|s| s.to_range().map_or(usize::MAX, |r| r.len()));
-        let line = at.and_then(|s| linked.text.lines().nth(s.location(&linked.text).line_number as usize - 1));
-        let mut reason: &dyn std::error::Error = e.as_inner();
-        while let Some(inner) = reason.source() {
-            reason = inner;
-        }
-        located(&recipe.sections, &linked.text, line.unwrap_or_default(), &reason.to_string())
-    })
 }

@@ -1,6 +1,6 @@
 //! A look from outside: an application's section has its keys in look files, its shader and its channel like ours.
 
-use hikage::material::{Block, Material, Section, Surroundings, TextureRef, register};
+use hikage::material::{Material, Section, TextureRef, register};
 use hikage::scene::{Image, Scene};
 use hikage::{Channel, Gpu, LookFile, Renderer, View};
 
@@ -26,12 +26,7 @@ macro_rules! tint {
             }
         }
 
-        impl Section for $name {
-            fn put(&self, gpu: &mut Block<'_>, _: &Surroundings<'_>) {
-                gpu.put("color", self.color);
-                gpu.put("share", self.share);
-            }
-        }
+        impl Section for $name {}
     };
 }
 
@@ -89,6 +84,22 @@ fn broken_type_shine(s: Surface, l: Shaded) -> Shaded {
     var changed = l;
     changed.direct = material.broken_type.share;
     return changed;
+}
+"
+);
+
+tint!(
+    BrokenHook,
+    "broken_hook",
+    "import package::bind::surface::{Shaded, Surface};
+
+struct BrokenHook {
+    color: vec3f,
+    share: f32,
+}
+
+fn broken_hook_shine(l: Shaded, s: Surface) -> Shaded {
+    return l;
 }
 "
 );
@@ -156,7 +167,11 @@ fn wrong_wgsl_is_one_error_with_file_and_line() {
     for (error, words) in [
         (register::<BrokenSyntax>().expect_err("syntax"), ["broken_syntax.wgsl", "line 4"]),
         (register::<BrokenType>().expect_err("type"), ["broken_type.wgsl", "line 11"]),
-        (register::<BrokenNumbers>().expect_err("members"), ["broken_numbers.wgsl", "no member share"]),
+        (register::<BrokenHook>().expect_err("parameters"), ["broken_hook.wgsl", "line 8"]),
+        (
+            register::<BrokenNumbers>().expect_err("members"),
+            ["broken_numbers.wgsl", "the member shares; its fields are color, share"],
+        ),
     ] {
         let message = error.to_string();
         assert!(words.iter().all(|word| message.contains(word)), "{message}");
@@ -225,11 +240,7 @@ fn names_that_are_taken_are_refused() {
         { /// A number.
           x: f32 = 0.0, in 0.0..=1.0; }
     }
-    impl Section for Other {
-        fn put(&self, gpu: &mut Block<'_>, _: &Surroundings<'_>) {
-            gpu.put("x", self.x);
-        }
-    }
+    impl Section for Other {}
     let error = register::<Other>().expect_err("taken").to_string();
     assert!(error.contains("sparkle") && error.contains("choose another"), "{error}");
 }

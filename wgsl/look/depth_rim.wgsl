@@ -13,12 +13,12 @@ struct DepthRim {
     tint: f32,
     shade_color: vec3f,
     punctual: f32,
-    side: vec2f,
+    light_side: vec2f,
     // Metres.
-    fade: vec2f,
+    fade_m: vec2f,
     // Pixels of a picture 1024 high, and metres.
-    width: f32,
-    threshold: f32,
+    width_px: f32,
+    threshold_m: f32,
     width_mask_uv: UvTransform,
 }
 
@@ -27,7 +27,7 @@ fn depth_rim_contour(s: Surface, l: Shaded, color: vec3f) -> vec3f {
     let pixel = s.at.clip_position.xyz;
     let seen = (frame.view_from_world * vec4f(s.normal, 0.0)).xy;
     let height = f32(textureDimensions(frame_depth).y);
-    var width = m.width;
+    var width = m.width_px;
     @if(depth_rim_width_mask) width *= textureSample(
         depth_rim_width_mask, depth_rim_width_mask_sampler, texture_uv(s.uv, m.width_mask_uv)
     ).r;
@@ -37,8 +37,8 @@ fn depth_rim_contour(s: Surface, l: Shaded, color: vec3f) -> vec3f {
     let half_px = offset * (0.49 / max(length(offset), 0.5));
     let near_step = distance_at(vec2i(floor(pixel.xy + offset - half_px))) - here;
     let far_step = distance_at(vec2i(floor(pixel.xy + offset + half_px))) - here;
-    let edge = 0.5 * (depth_rim_step(near_step, m.threshold) + depth_rim_step(far_step, m.threshold))
-        * depth_rim_resolved(width, height) * depth_rim_near(here, m.fade);
+    let edge = 0.5 * (depth_rim_step(near_step, m.threshold_m) + depth_rim_step(far_step, m.threshold_m))
+        * depth_rim_resolved(width, height) * depth_rim_near(here, m.fade_m);
     let lit_side = rim_side(s.normal, seen, frame.to_light);
     var contour = edge * lit_side;
     var light = m.color * frame.light_color * contour;
@@ -62,5 +62,5 @@ fn rim_side(normal: vec3f, seen: vec2f, to_light: vec3f) -> f32 {
     let light_seen = (frame.view_from_world * vec4f(to_light, 0.0)).xy;
     // 1e-12: a normal or a light towards the viewer has no direction there.
     let outwards = dot(seen, light_seen) * inverseSqrt(max(dot(seen, seen) * dot(light_seen, light_seen), 1e-12));
-    return depth_rim_side(dot(normal, to_light), outwards, material.depth_rim.side);
+    return depth_rim_side(dot(normal, to_light), outwards, material.depth_rim.light_side);
 }

@@ -2,7 +2,7 @@
 
 struct Diamond {
     color: vec3f,
-    facets: f32,
+    facets: u32,
     ior: vec3f,
     brilliance: f32,
     bounces: u32,

@@ -11,7 +11,7 @@ struct Emission {
     blink_low: f32,
     scroll_per_s: vec2f,
     blink_sharpness: f32,
-    blink_period: f32,
+    blink_period_s: f32,
     texture_uv: UvTransform,
 }
 
@@ -24,7 +24,7 @@ fn emission_surface(surface: Surface) -> Surface {
         s.emission *= textureSample(emission_texture, emission_texture_sampler, at).rgb;
     }
     @if(emission_blink) s.emission *= blink(
-        fract(frame.time_s / material.emission.blink_period), material.emission.blink_low, material.emission.blink_sharpness
+        fract(frame.time_s / material.emission.blink_period_s), material.emission.blink_low, material.emission.blink_sharpness
     );
     @if(channel_emission) shown = s.emission;
     return s;

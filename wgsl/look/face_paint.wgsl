@@ -14,7 +14,7 @@ struct FacePaint {
     blush_strength: f32,
     line_color: vec3f,
     shadow_line_strength: f32,
-    nose_line_yaw: vec2f,
+    nose_line_yaw_rad: vec2f,
     nose_line_strength: f32,
     map_uv: UvTransform,
 }
@@ -24,7 +24,7 @@ fn face_paint_vary(v: VertexInput, given: Varying) -> Varying {
     let view = in_face_frame(v, normalize(frame.eye - world_position(v, character.head)));
     // atan2(0, 0) is left to the driver.
     let yaw = atan2(abs(view.x), select(1e-6, view.z, abs(view.z) > 1e-6));
-    let fade = material.face_paint.nose_line_yaw;
+    let fade = material.face_paint.nose_line_yaw_rad;
     out.nose = smoothstep(fade.x, max(fade.y, fade.x + 1e-4), yaw);
     return out;
 }

@@ -11,7 +11,7 @@ struct Fire {
     edges: vec2f,
     sway: f32,
     additive: f32,
-    period: f32,
+    period_s: f32,
     cells: i32,
     heat_uv: UvTransform,
 }

@@ -6,9 +6,10 @@ struct Gem {
     ior: f32,
     cloudiness: f32,
     // Depth of the body in texture coordinates.
-    depth_uv: f32,
-    layers: f32,
+    depth_m: f32,
+    uv_per_m: f32,
+    layers: u32,
     caustic: f32,
-    focus: f32,
+    caustic_focus: f32,
     polish: f32,
 }

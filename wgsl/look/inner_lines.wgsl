@@ -6,9 +6,9 @@ import package::lib::inner_lines::line_between;
 import package::material::material;
 
 struct InnerLines {
-    tint: vec3f,
+    color: vec3f,
     // Pixels of a picture 1024 high.
-    width: f32,
+    width_px: f32,
     // Metres, and cosine.
     steps: vec2f,
     parts: f32,
@@ -19,7 +19,7 @@ fn inner_line(pixel: vec3f) -> f32 {
     let m = &material.inner_lines;
     let height = f32(textureDimensions(frame_depth).y);
     // A quarter of a pixel lies between the border and the middle of a pixel on the line, as a mean.
-    let radius = max(m.width * height / 1024.0 * 0.5, 0.5) + 0.25;
+    let radius = max(m.width_px * height / 1024.0 * 0.5, 0.5) + 0.25;
     let own = surface_at(vec2i(pixel.xy));
     let here = frame.near / max(pixel.z, 1e-12);
     var different = 0.0;
@@ -33,12 +33,12 @@ fn inner_line(pixel: vec3f) -> f32 {
         );
     }
     // A line of less than a pixel is as much fainter.
-    return saturate(different * 0.5) * saturate(m.width * height / 1024.0);
+    return saturate(different * 0.5) * saturate(m.width_px * height / 1024.0);
 }
 
 fn inner_lines_contour(s: Surface, l: Shaded, color: vec3f) -> vec3f {
     let line = inner_line(s.at.clip_position.xyz);
     @if(channel_inner_lines) shown = vec3f(line);
     // It darkens what is there: a line never glows.
-    return color * mix(vec3f(1.0), material.inner_lines.tint, line);
+    return color * mix(vec3f(1.0), material.inner_lines.color, line);
 }

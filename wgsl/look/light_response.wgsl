@@ -5,13 +5,14 @@ import package::material::material;
 
 struct LightResponse {
     // Least and greatest luminance.
-    bounds: vec2f,
+    min: f32,
+    max: f32,
     monochrome: f32,
 }
 
 fn light_response_lamps(surface: Surface) -> Surface {
     var s = surface;
     let m = &material.light_response;
-    s.light = light_response(s.light, m.bounds.x, m.bounds.y, m.monochrome);
+    s.light = light_response(s.light, m.min, m.max, m.monochrome);
     return s;
 }

@@ -5,12 +5,12 @@ struct Outline {
     color: vec3f,
     // Metres, or share of the picture's height.
     width: f32,
-    tint: vec3f,
-    gamma: f32,
-    bounds: vec2f,
+    tint_factor: vec3f,
+    tint_gamma: f32,
+    clamp_px: vec2f,
     lighting_mix: f32,
     // Metres away from the viewer.
-    push: f32,
+    push_m: f32,
     shift: mat3x3f,
     parts: array<vec4f, 8>,
     width_mask_uv: UvTransform,

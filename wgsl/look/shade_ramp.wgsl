@@ -7,7 +7,7 @@ import package::material::{
 };
 
 struct ShadeRamp {
-    terminator: vec3f,
+    terminator_color: vec3f,
     // Middle of the material's row.
     v: f32,
     edges: vec4f,
@@ -43,6 +43,6 @@ fn ramp_color(uv: vec4f, lit: vec3f, shade: vec3f, place: f32) -> vec3f {
         var dark = shade;
         // Colours that a turn takes out of the gamut are cut.
         @if(shade_ramp_shift) dark = max(mix(m.shift_warm * shade, m.shift_cool * shade, frame.coolness), vec3f(0.0));
-        return ramp_bands(lit, dark, lit * m.terminator, m.edges, place);
+        return ramp_bands(lit, dark, lit * m.terminator_color, m.edges, place);
     }
 }

@@ -5,14 +5,15 @@ import package::lib::mtoon::mtoon_animate_uv;
 import package::material::{material, uv_animation_mask, uv_animation_mask_sampler};
 
 struct UvAnimation {
-    scroll_per_s: vec2f,
+    scroll_u_per_s: f32,
+    scroll_v_per_s: f32,
     rotation_rad_per_s: f32,
     mask_uv: UvTransform,
 }
 
 // Both UV sets moved by as much as `mask` says.
 fn moved_uv(uv: vec4f, mask: f32) -> vec4f {
-    let scroll = material.uv_animation.scroll_per_s * frame.time_s;
+    let scroll = vec2f(material.uv_animation.scroll_u_per_s, material.uv_animation.scroll_v_per_s) * frame.time_s;
     let rotation = material.uv_animation.rotation_rad_per_s * frame.time_s;
     return vec4f(
         mtoon_animate_uv(uv.xy, scroll, rotation, mask), mtoon_animate_uv(uv.zw, scroll, rotation, mask)

@@ -20,7 +20,7 @@ fn diamond_model(s: Surface) -> Shaded {
     for (var c = 0; c < 3; c++) {
         let r = refract(-s.view, s.normal, 1.0 / m.ior[c]);
         let inside = normalize(vec3f(dot(r, s.tangent), dot(r, across), dot(r, s.normal)));
-        let exit = diamond_path(start, inside, m.ior[c], m.bounces, m.facets);
+        let exit = diamond_path(start, inside, m.ior[c], m.bounces, f32(m.facets));
         let d = s.tangent * exit.direction.x + across * exit.direction.y + s.normal * exit.direction.z;
         inner[c] = studio_light(d, light, l.gi, m.brilliance * 0.5, m.brilliance)[c] * exit.share;
     }

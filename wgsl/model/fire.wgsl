@@ -10,7 +10,7 @@ import package::material::{fire_heat, fire_heat_sampler, material};
 fn burning_shape(s: Surface) -> vec4f {
     let m = &material.fire;
     var at = texture_uv(s.uv, m.heat_uv);
-    let phase = fract(frame.time_s / m.period);
+    let phase = fract(frame.time_s / m.period_s);
     let noise = fire_noise(at, phase, m.cells);
     at.x += fire_sway(at, phase, m.cells, m.sway);
     var shape = fire_shape(at);

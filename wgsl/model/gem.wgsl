@@ -15,7 +15,7 @@ fn gem_model(s: Surface) -> Shaded {
     let light = l.light * mix(0.3, 1.0, l.own_lit);
     let r = refract(-s.view, s.normal, 1.0 / m.ior);
     let inside = vec3f(dot(r, s.tangent), dot(r, bitangent(s)), dot(r, s.normal));
-    let glow = gathered(far_normal(s.normal, r), frame.to_light, m.focus);
+    let glow = gathered(far_normal(s.normal, r), frame.to_light, m.caustic_focus);
     let around = l.gi * 0.8 + light * 0.4;
     let through = (around + light * m.caustic * glow) * absorbed(m.color, inside, 1.0);
     // Scattered light comes from a little below the surface, and from around the border of light; where it has come far, it
@@ -26,9 +26,9 @@ fn gem_model(s: Surface) -> Shaded {
     let milk = far * (light * (max(wrapped, 0.35) + 0.5 * thin) + l.gi) + m.color * light * (0.2 * m.caustic * glow);
     var body = mix(through, milk, m.cloudiness);
     var enclosed = 0.0;
-    @if(gem_inclusions) for (var i = m.layers; i >= 1.0; i -= 1.0) {
-        let depth = i / m.layers;
-        let moved = parallax(inside, depth * m.depth_uv) * vec2f(1.0, -1.0);
+    @if(gem_inclusions) for (var i = f32(m.layers); i >= 1.0; i -= 1.0) {
+        let depth = i / f32(m.layers);
+        let moved = parallax(inside, depth * (m.depth_m * m.uv_per_m)) * vec2f(1.0, -1.0);
         // Deeper layers show other parts of the picture.
         let at = s.at.uv.xy + moved + vec2f(0.37, 0.61) * (i - 1.0);
         let found = textureSample(gem_inclusions, gem_inclusions_sampler, at);

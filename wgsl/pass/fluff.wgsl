@@ -14,11 +14,11 @@ fn vs_main(vertex: VertexInput) -> Varying {
     let shell = f32(v.instance / frame.instances);
     v.instance = v.instance % frame.instances;
     var out = surface_varying(v);
-    out.level = shell / fluff_shells(m.length, frame.px_per_m, m.shells);
-    let phase = fract(frame.time_s / m.period);
+    out.level = shell / fluff_shells(m.length_m, frame.px_per_m, f32(m.shells));
+    let phase = fract(frame.time_s / m.wind_period_s);
     let bend = out.level * out.level;
-    out.world_position = out.world_position + out.normal * m.length * out.level - vec3f(0.0, m.gravity * bend, 0.0)
-        + fluff_wind(out.world_position, phase) * m.wind * bend;
+    out.world_position = out.world_position + out.normal * m.length_m * out.level - vec3f(0.0, m.gravity_m * bend, 0.0)
+        + fluff_wind(out.world_position, phase) * m.wind_m * bend;
     out.clip_position = frame.clip_from_world * vec4f(out.world_position, 1.0);
     return out;
 }
@@ -48,7 +48,7 @@ fn shell(in: Varying) -> vec4f {
     var place = in;
     // Strands catch the light each in its own way: its border has their shape.
     place.normal = normalize(in.normal) + strand.xyz * m.ruffle;
-    var color = drawn(place, true).color * mix(m.root, 1.0, in.level);
+    var color = drawn(place, true).color * mix(m.root_light, 1.0, in.level);
     @if(channel_fluff) color = vec3f(in.level);
     return vec4f(encoded(color) * cover, cover);
 }

@@ -32,7 +32,7 @@ fn vs_main(v: VertexInput) -> Varying {
     }
     @if(outline_bounds) {
         let row = vec3f(frame.clip_from_world[0].y, frame.clip_from_world[1].y, frame.clip_from_world[2].y);
-        width = outline_bounded(width, length(row), out.clip_position.w, m.bounds);
+        width = outline_bounded(width, length(row), out.clip_position.w, m.clamp_px);
     }
     @if(!outline_screen) {
         let position = world_position(v, v.position) + normal * width;
@@ -40,7 +40,7 @@ fn vs_main(v: VertexInput) -> Varying {
     }
     // 1e-5 of the distance behind the surface, so that a hull of width 0 stays hidden (depth is near / distance).
     out.clip_position.z *= 1.0 - 1e-5;
-    @if(outline_push) out.clip_position.z = pulled_depth(out.clip_position.z, out.clip_position.w, -m.push);
+    @if(outline_push) out.clip_position.z = pulled_depth(out.clip_position.z, out.clip_position.w, -m.push_m);
     return out;
 }
 
@@ -85,7 +85,7 @@ fn tinted(in: Varying) -> vec3f {
         var source = s.lit;
         @if(lit && outline_from_shade) source = s.shade;
         @if(lit && outline_from_shade && shade_ramp) source = ramp_color(s.uv, s.lit, s.shade, 0.0);
-        var color = outline_tinted(source, m.gamma, m.shift, m.tint);
+        var color = outline_tinted(source, m.tint_gamma, m.shift, m.tint_factor);
         @if(outline_part_ids) {
             // The texel itself: numbers are not filtered.
             let size = vec2f(textureDimensions(outline_part_ids));
