@@ -6,8 +6,8 @@ use super::geometry::{Geometry, Part};
 use super::gpu_scene::GpuScene;
 use super::material::Composition;
 use super::pass::{
-    DEPTH_STENCIL_FORMAT, Mark, Picture, bangs_shadow, eyes_through, fluff, glow, opaque, outline, prepass, shadow,
-    transparent,
+    DEPTH_STENCIL_FORMAT, Mark, Picture, Sight, bangs_shadow, eyes_through, fluff, glow, opaque, outline, prepass,
+    shadow, transparent,
 };
 use super::shaders::{Recipe, Shaders};
 use super::variants::{Drawn, Request};
@@ -137,7 +137,6 @@ pub(super) fn requests(
         let colors = draw.has_vertex_colors;
         let casts = scene.self_shadow.is_some() && !draw.blend && material.cast_shadow.is_some_and(|s| s.casts);
         Pipelines {
-            outline: outline::request(picture, of, material, colors),
             glow: glows(draw).then(|| glow::request(of, material, colors)),
             bangs: (scene.bangs.is_some() && !draw.blend).then(|| bangs_shadow::request(of, colors)),
             shadow: casts.then(|| shadow::request(of, colors)),
@@ -154,14 +153,14 @@ pub(super) fn recipes_of(shaders: &Shaders, scene: &Scene, material: usize) -> V
         Surroundings::of_scene(scene, &Driven::of(scene), &uv_metric::metres_per_uv(scene))
             .map(|of| Composition::new(shaders, &of))
             .collect();
-    let picture = Picture { output: Output::default(), depth_format: DEPTH_STENCIL_FORMAT, channel: None };
+    let picture = Picture { output: Output::default(), depth_format: DEPTH_STENCIL_FORMAT, sight: Sight::default() };
     let draws = draws(scene, &Geometry::gather(scene).parts, true);
     let all = requests(scene, &draws, &compositions, &picture);
     let of_material = draws.iter().zip(&all).filter(|(draw, _)| draw.material == material);
     of_material.flat_map(|(_, pipelines)| pipelines.iter().map(|r| r.recipe.clone())).collect()
 }
 
-/// What shows the surface of a draw; in a debug channel there is no more.
+/// What shows a draw in the colour pass; debug channels have no lines.
 pub(super) fn surface_requests(
     draw: &Draw,
     of: &Composition,
@@ -175,7 +174,7 @@ pub(super) fn surface_requests(
         } else {
             opaque::request(picture, of, material, colors, draw.mark)
         },
-        outline: None,
+        outline: outline::request(picture, of, material, colors).filter(|_| picture.sight.channel.is_none()),
         fluff: (of.has("fluff") && !draw.blend).then(|| fluff::request(picture, of, colors)),
         glow: None,
         through: (draw.mark == Mark::Eyes).then(|| eyes_through::request(picture, of, material, colors)),

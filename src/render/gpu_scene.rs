@@ -14,7 +14,7 @@ use super::made::Made;
 use super::pass::bangs_shadow::BangsMap;
 use super::pass::deform::DeformBuffers;
 use super::pass::shadow::{ShadowMap, ShadowRows};
-use super::pass::{Picture, prepass};
+use super::pass::{Picture, Sight, prepass};
 use super::variants::{Drawn, Request, Variant, Variants};
 use super::vertex::AffineRows;
 use super::{Renderer, View};
@@ -51,8 +51,9 @@ pub struct GpuScene {
     pub(crate) draws: Vec<Draw>,
     /// What shows each draw in the picture.
     pub(crate) picture: Vec<Pipelines<Drawn>>,
-    /// The same in debug channels that somebody has looked at.
-    pub(super) channels: BTreeMap<String, Vec<Pipelines<Drawn>>>,
+    /// What shows it in debug channels that somebody has looked at, and under point and spot lights: by channel, and
+    /// whether there are such lights.
+    pub(super) sights: BTreeMap<(Option<String>, bool), Vec<Pipelines<Drawn>>>,
     /// Depth, normal and part of every draw, for the channels that show these.
     pub(crate) geometry: Vec<Drawn>,
     /// Groups of materials, by what shaders bind of them.
@@ -267,26 +268,28 @@ impl GpuScene {
         Ok(list)
     }
 
-    /// What shows a debug channel, made when somebody first looks at it.
-    pub(crate) fn show_channel(&mut self, variants: &Variants, picture: &Picture<'_>, channel: &str) -> Result<()> {
-        if self.channels.contains_key(channel) {
+    /// Makes what shows each draw of a picture, where nobody has looked at its like before.
+    pub(crate) fn look(&mut self, variants: &Variants, picture: &Picture<'_>) -> Result<()> {
+        let Sight { channel, punctual } = picture.sight;
+        let key = (channel.map(str::to_owned), punctual);
+        if picture.sight == Sight::default() || self.sights.contains_key(&key) {
             return Ok(());
         }
-        let requests: Vec<_> = self.draws.iter().map(|d| self.channel_request(picture, d)).collect();
+        let request = |draw: &Draw| {
+            let (of, material) = (&self.looks.compositions[draw.material], self.material(draw));
+            draw_list::surface_requests(draw, of, material, picture)
+        };
+        let requests: Vec<_> = self.draws.iter().map(request).collect();
         variants.get_all(requests.iter().flat_map(Pipelines::iter))?;
         let made = self.made(variants, requests)?;
-        self.channels.insert(channel.to_owned(), made);
+        self.sights.insert(key, made);
         Ok(())
     }
 
-    fn channel_request(&self, picture: &Picture<'_>, draw: &Draw) -> Pipelines<Request> {
-        let (of, material) = (&self.looks.compositions[draw.material], self.material(draw));
-        draw_list::surface_requests(draw, of, material, picture)
-    }
-
-    /// What shows each draw in a channel of [`GpuScene::show_channel`].
-    pub(crate) fn channel(&self, channel: &str) -> &[Pipelines<Drawn>] {
-        self.channels.get(channel).map_or(&[], Vec::as_slice)
+    /// What shows each draw, once [`GpuScene::look`] has made it.
+    pub(crate) fn shown(&self, sight: Sight<'_>) -> &[Pipelines<Drawn>] {
+        let key = (sight.channel.map(str::to_owned), sight.punctual);
+        self.sights.get(&key).unwrap_or(&self.picture)
     }
 
     /// Makes what draws depth, normal and part of every draw, when somebody first looks at them.

@@ -47,7 +47,7 @@ use pass::glow::{self, GlowInputs};
 use pass::post::{PostInputs, PostPass};
 use pass::prepass::{self, PrepassInputs};
 use pass::shadow::{self, ShadowInputs};
-use pass::{HDR_FORMAT, Picture, eyes_through, fluff, opaque, outline, transparent};
+use pass::{HDR_FORMAT, Picture, Sight, eyes_through, fluff, opaque, outline, transparent};
 use shaders::Shaders;
 use targets::{ColorTargets, PrepassTargets};
 use variants::Variants;
@@ -109,6 +109,17 @@ pub(crate) enum Shown<'a> {
     Channel(&'a str),
     /// The floor of benches.
     Floor(&'a FloorPass),
+}
+
+impl<'a> Shown<'a> {
+    /// What its shaders are made for.
+    fn sight(self, view: &View) -> Sight<'a> {
+        let channel = match self {
+            Self::Channel(channel) => Some(channel),
+            Self::Picture | Self::Floor(_) => None,
+        };
+        Sight { channel, punctual: !view.lights.punctual.is_empty() }
+    }
 }
 
 /// Longest wait for a frame before [`Error::Gpu`].
@@ -175,7 +186,7 @@ impl Renderer {
 
     /// What draws the floor of benches.
     pub(crate) fn floor(&self, scene: &mut GpuScene) -> Result<FloorPass> {
-        FloorPass::new(&self.variants, &Picture::new(self.gpu(), self.output, false, None), scene)
+        FloorPass::new(&self.variants, &Picture::new(self.gpu(), self.output, false, Sight::default()), scene)
     }
 
     /// Renders a view and reads it back: sRGB, straight alpha.
@@ -256,11 +267,10 @@ impl Renderer {
 
     /// Every draw of the colour pass.
     fn record_surfaces(&self, pass: &mut wgpu::RenderPass<'_>, scene: &GpuScene, view: &View, shown: Shown<'_>) {
-        let pipelines = match shown {
-            Shown::Picture => &scene.picture,
-            Shown::Channel(channel) => scene.channel(channel),
-            Shown::Floor(floor) => return floor.encode(pass, scene),
-        };
+        if let Shown::Floor(floor) = shown {
+            return floor.encode(pass, scene);
+        }
+        let pipelines = scene.shown(shown.sight(view));
         // Body, face, hair.
         opaque::encode(pass, scene, pipelines);
         // Lines around them, hidden where a surface is nearer.
@@ -284,9 +294,7 @@ impl Renderer {
         // Draws of a crowd share one order: that of its first character.
         let eye = view.instances.first().map_or(view.camera.eye, |m| m.inverse().transform_point3(view.camera.eye));
         scene.sort_transparent(eye);
-        if let Shown::Channel(channel) = shown {
-            scene.show_channel(&self.variants, &Picture::new(&gpu, self.output, false, Some(channel)), channel)?;
-        }
+        scene.look(&self.variants, &Picture::new(&gpu, self.output, post.is_some(), shown.sight(view)))?;
         match post {
             Some(post) => self.fit_post(view.size, post)?,
             None if self.color_targets.as_ref().is_none_or(|t| t.size != view.size) => {

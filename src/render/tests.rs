@@ -10,7 +10,7 @@ use toml::{Table, Value};
 use super::Output;
 use super::draw_list::surface_requests;
 use super::material::{Composition, bytes};
-use super::pass::{DEPTH_FORMAT, Mark, Picture, bangs_shadow, glow, outline, prepass, shadow};
+use super::pass::{DEPTH_FORMAT, Mark, Picture, Sight, bangs_shadow, glow, prepass, shadow};
 use super::shaders::{Recipe, Shaders};
 use super::variants::Request;
 use crate::material::{About, Alpha, AlphaMode, Field, Kind, LISTED, Material, Shading, Surroundings};
@@ -85,7 +85,8 @@ fn face_maps() -> Vec<FaceMap> {
 fn requests(shaders: &Shaders, material: &Material, colors: bool, channel: Option<&str>, samples: u32) -> Vec<Request> {
     let maps = face_maps();
     let of = Composition::new(shaders, &surroundings(material, &maps));
-    let picture = Picture { output: Output { samples, ..Output::default() }, depth_format: DEPTH_FORMAT, channel };
+    let sight = Sight { channel, punctual: samples == 4 };
+    let picture = Picture { output: Output { samples, ..Output::default() }, depth_format: DEPTH_FORMAT, sight };
     let draw = super::draw_list::Draw {
         material: 0,
         indices: 0..3,
@@ -99,7 +100,6 @@ fn requests(shaders: &Shaders, material: &Material, colors: bool, channel: Optio
         mark: Mark::Eyes,
     };
     let mut list: Vec<Request> = surface_requests(&draw, &of, material, &picture).iter().cloned().collect();
-    list.extend(outline::request(&picture, &of, material, colors));
     list.extend(of.has("glow").then(|| glow::request(&of, material, colors)));
     list.push(shadow::request(&of, colors));
     list.push(bangs_shadow::request(&of, colors));

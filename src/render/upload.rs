@@ -16,7 +16,7 @@ use super::made::Made;
 use super::material::{self, Composition, Source};
 use super::pass::bangs_shadow::{BangsMap, map_texture};
 use super::pass::shadow::{self, ShadowMap};
-use super::pass::{Picture, color_depth_format};
+use super::pass::{Picture, Sight, color_depth_format};
 use super::textures::{self, TextureSet};
 use super::{Renderer, uv_metric};
 use crate::material::{Encoding, MAX_SHELLS, Material, Surroundings, out_of_range};
@@ -140,7 +140,7 @@ impl Renderer {
         let character_group = self.character_group(&character, &map_samplers, bangs.as_ref(), shadow.as_ref());
         let deform = self.deform.buffers(&gpu, &geometry.deform_input());
         let draws = draw_list::draws(scene, &geometry.parts, color_depth_format(&gpu).has_stencil_aspect());
-        let picture = Picture::new(&gpu, self.output, scene.post.is_some(), None);
+        let picture = Picture::new(&gpu, self.output, scene.post.is_some(), Sight::default());
         let requests = draw_list::requests(scene, &draws, &looks.compositions, &picture);
         self.variants.get_all(requests.iter().flat_map(Pipelines::iter))?;
         let shells = scene.materials.iter().filter_map(|m| m.fluff).map(|f| f.shells.min(MAX_SHELLS) as usize).max();
@@ -166,7 +166,7 @@ impl Renderer {
             through_order: through_order(&draws),
             draws,
             picture: Vec::new(),
-            channels: BTreeMap::new(),
+            sights: BTreeMap::new(),
             geometry: Vec::new(),
             groups: Vec::new(),
             eyes_through: scene.eyes_through,

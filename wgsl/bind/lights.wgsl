@@ -29,7 +29,7 @@ fn ambient(n_y: f32) -> vec3f {
 // Light that falls on a place from anywhere, at most 1: a line takes it whole, whatever its own direction.
 fn arriving_light(position: vec3f) -> vec3f {
     var light = frame.light_color + 0.5 * (frame.ambient_sky + frame.ambient_ground);
-    for (var i = 0u; i < frame.punctual_count; i++) {
+    @if(punctual) for (var i = 0u; i < frame.punctual_count; i++) {
         light += punctual_light(i, position).radiance;
     }
     return min(light, vec3f(1.0));

@@ -114,7 +114,7 @@ fn lit_by_lamps(surface: Surface) -> Surface {
     s.light = frame.light_color;
     s.n_dot_l = dot(s.normal, frame.to_light);
     s.directional = 1.0;
-    if frame.punctual_count > 0u {
+    @if(punctual) {
         var weight = luminance(s.light);
         var sum = s.n_dot_l * weight;
         for (var i = 0u; i < frame.punctual_count; i++) {

@@ -47,7 +47,7 @@ fn depth_rim_contour(s: Surface, l: Shaded, color: vec3f) -> vec3f {
         light += m.shade_color * (frame.light_color * 0.5 + l.gi) * shaded;
         contour = max(contour, shaded * 0.5);
     }
-    for (var i = 0u; i < frame.punctual_count; i++) {
+    @if(punctual) for (var i = 0u; i < frame.punctual_count; i++) {
         let arriving = punctual_light(i, s.at.world_position);
         let from_there = edge * rim_side(s.normal, seen, arriving.to_light) * m.punctual;
         light += m.color * min(arriving.radiance, vec3f(1.0)) * from_there;

@@ -98,20 +98,29 @@ pub(crate) struct Picture<'a> {
     /// That of the application, or half floats that [`post`] finishes.
     pub output: Output,
     pub depth_format: wgpu::TextureFormat,
+    pub sight: Sight<'a>,
+}
+
+/// What of a picture its shaders are made for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(crate) struct Sight<'a> {
     /// Debug channel in place of the colour.
     pub channel: Option<&'a str>,
+    /// Whether point and spot lights may shine; drivers without jumps pay for lights that are not there.
+    pub punctual: bool,
 }
 
 impl<'a> Picture<'a> {
-    pub fn new(gpu: &Gpu, output: Output, is_finished_later: bool, channel: Option<&'a str>) -> Self {
+    pub fn new(gpu: &Gpu, output: Output, is_finished_later: bool, sight: Sight<'a>) -> Self {
         let format = if is_finished_later { HDR_FORMAT } else { output.format };
-        Self { output: Output { format, ..output }, depth_format: color_depth_format(gpu), channel }
+        Self { output: Output { format, ..output }, depth_format: color_depth_format(gpu), sight }
     }
 
     /// The request of a pass that draws surfaces into it.
     pub fn request(&self, recipe: Recipe, drawn: Drawing) -> Request {
-        let mut recipe = recipe.with("encode_srgb", encodes_srgb(self.output.format));
-        if let Some(channel) = self.channel {
+        let mut recipe =
+            recipe.with("encode_srgb", encodes_srgb(self.output.format)).with("punctual", self.sight.punctual);
+        if let Some(channel) = self.sight.channel {
             recipe = recipe.with("channel", true).with(&format!("channel_{}", channel.replace('-', "_")), true);
         }
         let Drawing { cull, blend, write_depth, mark } = drawn;
