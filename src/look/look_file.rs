@@ -215,12 +215,13 @@ impl LookFile {
     pub fn template(scene: &Scene) -> String {
         let mut root = Table::new();
         root.insert("base".to_owned(), "anime".into());
-        let section = |value: Option<Table>| value.map(Value::Table);
-        let (bangs, through) = (scene.bangs.and_then(table_of), scene.eyes_through.and_then(table_of));
-        root.extend(section(scene.self_shadow.and_then(table_of)).map(|t| ("self_shadow".to_owned(), t)));
-        root.extend(section(scene.post.and_then(table_of)).map(|t| ("post".to_owned(), t)));
-        root.extend(section(bangs).map(|t| ("bangs".to_owned(), t)));
-        root.extend(section(through).map(|t| ("eyes_through".to_owned(), t)));
+        let sections = [
+            ("self_shadow", scene.self_shadow.and_then(table_of)),
+            ("post", scene.post.and_then(table_of)),
+            ("bangs", scene.bangs.and_then(table_of)),
+            ("eyes_through", scene.eyes_through.and_then(table_of)),
+        ];
+        root.extend(sections.into_iter().filter_map(|(name, table)| Some((name.to_owned(), Value::Table(table?)))));
         let (mut roles, mut materials) = (Table::new(), Table::new());
         let used: BTreeSet<Role> = scene.meshes.iter().flat_map(|m| &m.primitives).map(|p| p.role).collect();
         for role in used {

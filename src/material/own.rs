@@ -15,13 +15,9 @@ use crate::{Error, Result};
 pub struct OwnSection(Box<dyn Erased>);
 
 /// What a section of any type can do.
-trait Erased: Section {
+trait Erased: Section + Any {
     fn copied(&self) -> Box<dyn Erased>;
     fn equals(&self, other: &dyn Erased) -> bool;
-    fn as_any(&self) -> &dyn Any;
-    fn as_any_mut(&mut self) -> &mut dyn Any;
-    fn as_section(&self) -> &dyn Section;
-    fn as_section_mut(&mut self) -> &mut dyn Section;
 }
 
 impl<S: Section + Clone + PartialEq> Erased for S {
@@ -29,29 +25,21 @@ impl<S: Section + Clone + PartialEq> Erased for S {
         Box::new(self.clone())
     }
     fn equals(&self, other: &dyn Erased) -> bool {
-        other.as_any().downcast_ref::<S>() == Some(self)
-    }
-    fn as_any(&self) -> &dyn Any {
-        self
-    }
-    fn as_any_mut(&mut self) -> &mut dyn Any {
-        self
-    }
-    fn as_section(&self) -> &dyn Section {
-        self
-    }
-    fn as_section_mut(&mut self) -> &mut dyn Section {
-        self
+        (other as &dyn Any).downcast_ref::<S>() == Some(self)
     }
 }
 
 impl OwnSection {
     pub(crate) fn section(&self) -> &dyn Section {
-        self.0.as_section()
+        &*self.0
     }
 
     pub(crate) fn section_mut(&mut self) -> &mut dyn Section {
-        self.0.as_section_mut()
+        &mut *self.0
+    }
+
+    fn any(&self) -> &dyn Any {
+        &*self.0
     }
 }
 
@@ -77,18 +65,18 @@ impl Material {
     /// The section of an application, where the material has it.
     #[must_use]
     pub fn own<S: Section>(&self) -> Option<&S> {
-        self.own.iter().find_map(|o| o.0.as_any().downcast_ref())
+        self.own.iter().find_map(|o| o.any().downcast_ref())
     }
 
     /// The same to change.
     #[must_use]
     pub fn own_mut<S: Section>(&mut self) -> Option<&mut S> {
-        self.own.iter_mut().find_map(|o| o.0.as_any_mut().downcast_mut())
+        self.own.iter_mut().find_map(|o| (&mut *o.0 as &mut dyn Any).downcast_mut())
     }
 
     /// Gives the material a section of an application, or takes it away.
     pub fn set_own<S: Section + Clone + PartialEq>(&mut self, section: Option<S>) {
-        self.own.retain(|o| !o.0.as_any().is::<S>());
+        self.own.retain(|o| !o.any().is::<S>());
         self.own.extend(section.map(|s| OwnSection(Box::new(s))));
     }
 }

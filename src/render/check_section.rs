@@ -1,7 +1,7 @@
 //! The check of a section of an application: whether its WGSL, its numbers and its declaration agree.
 
 use super::material::bytes;
-use super::shaders::{Bound, Recipe, STAGES, Shaders, file, hooks_of};
+use super::shaders::{Bound, Recipe, STAGES, Shaders, Stage, file, hooks_of};
 use crate::material::{About, Declared, Kind, LISTED, Material, Section, Surroundings, out_of_range, registered};
 use crate::{Error, Result};
 
@@ -27,8 +27,8 @@ fn located(sections: &[&'static About], text: &str, line: &str, message: &str) -
         };
         // A hook that takes other things than its stage gives.
         let called = || {
-            let hooks = STAGES.iter().map(|s| format!("{}_{}(", about.key, s.name));
-            hooks.filter(|hook| line.contains(hook.as_str())).find_map(|hook| starting(&format!("fn {hook}")))
+            let is_called = |s: &&Stage| line.contains(&format!("fn stage_{}(", s.name));
+            STAGES.iter().filter(is_called).find_map(|s| starting(&format!("fn {}_{}(", about.key, s.name)))
         };
         let at = at.or_else(around).or_else(called);
         Some((format!("{}.wgsl", about.key), format!("line {}", at? + 1)))

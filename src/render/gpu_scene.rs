@@ -17,7 +17,7 @@ use super::pass::shadow::{ShadowMap, ShadowRows};
 use super::pass::{Picture, Sight, prepass};
 use super::variants::{Drawn, Request, Variant, Variants};
 use super::vertex::AffineRows;
-use super::{Renderer, View};
+use super::{Renderer, View, bind};
 use crate::material::Material;
 use crate::motion::Pose;
 use crate::scene::{EyesThrough, Post, Scene};
@@ -343,10 +343,6 @@ impl GpuScene {
 
 /// Buffer for the transforms of `count` instances.
 pub(crate) fn instance_buffer(gpu: &Gpu, count: usize) -> wgpu::Buffer {
-    gpu.device.create_buffer(&wgpu::BufferDescriptor {
-        label: Some("instances"),
-        size: (count * size_of::<AffineRows>()) as u64,
-        usage: wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST,
-        mapped_at_creation: false,
-    })
+    let usage = wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST;
+    bind::buffer(gpu, "instances", (count * size_of::<AffineRows>()) as u64, usage)
 }

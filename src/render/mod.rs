@@ -1,5 +1,6 @@
 //! The renderer: a frame as one list of calls.
 
+mod bind;
 pub(crate) mod check_section;
 mod check_wgsl;
 mod clock;
@@ -51,6 +52,7 @@ use pass::{HDR_FORMAT, Picture, Sight, eyes_through, fluff, opaque, outline, tra
 use shaders::Shaders;
 use targets::{ColorTargets, PrepassTargets};
 use variants::Variants;
+use wgpu::BindingResource;
 
 /// What a [`Renderer`] draws into.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -146,12 +148,8 @@ impl Renderer {
         gpu.scoped(|| {
             let frame_numbers = frame_numbers();
             let layouts = Layouts::new(gpu, frame_numbers.size(), frame::character_numbers().size());
-            let frame_uniform = gpu.device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some("frame"),
-                size: frame_numbers.size(),
-                usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
-                mapped_at_creation: false,
-            });
+            let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
+            let frame_uniform = bind::buffer(gpu, "frame", frame_numbers.size(), usage);
             let frame_group = frame_group(gpu, &layouts, &frame_uniform, &PrepassTargets::new(gpu, [1, 1], false));
             let variants = Variants::new(gpu, Shaders::new()?, layouts.frame.clone(), layouts.character.clone());
             Ok(Self {
@@ -204,7 +202,7 @@ impl Renderer {
             };
             let texture = match self.picture_target.take() {
                 Some(t) if [t.width(), t.height()] == view.size => t,
-                _ => targets::target(&gpu, "picture", view.size, 1, self.output.format, true),
+                _ => targets::texture(&gpu, "picture", view.size, 1, self.output.format, wgpu::TextureUsages::COPY_SRC),
             };
             let mut encoder =
                 gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
@@ -485,87 +483,34 @@ struct PostTargets {
 }
 
 fn frame_group(gpu: &Gpu, layouts: &Layouts, uniform: &wgpu::Buffer, read: &PrepassTargets) -> wgpu::BindGroup {
-    gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: Some("frame"),
-        layout: &layouts.frame,
-        entries: &[
-            wgpu::BindGroupEntry { binding: 0, resource: uniform.as_entire_binding() },
-            wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::TextureView(&read.depth_view) },
-            wgpu::BindGroupEntry { binding: 2, resource: wgpu::BindingResource::TextureView(&read.surfaces_view) },
-        ],
-    })
+    let read = [&read.depth_view, &read.surfaces_view].map(BindingResource::TextureView);
+    bind::group(gpu, "frame", &layouts.frame, std::iter::once(uniform.as_entire_binding()).chain(read))
 }
 
 impl Layouts {
     fn new(gpu: &Gpu, frame_bytes: u64, character_bytes: u64) -> Self {
-        let uniform = |size| wgpu::BindingType::Buffer {
-            ty: wgpu::BufferBindingType::Uniform,
-            has_dynamic_offset: false,
-            min_binding_size: wgpu::BufferSize::new(size),
-        };
+        use wgpu::{BindingType::Sampler, SamplerBindingType, TextureSampleType as T, TextureViewDimension as D};
         let both = wgpu::ShaderStages::VERTEX_FRAGMENT;
-        let entry = |binding, visibility, ty| wgpu::BindGroupLayoutEntry { binding, visibility, ty, count: None };
-        let frame = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some("frame"),
-            entries: &[
-                entry(0, both, uniform(frame_bytes)),
-                entry(
-                    1,
-                    wgpu::ShaderStages::FRAGMENT,
-                    wgpu::BindingType::Texture {
-                        sample_type: wgpu::TextureSampleType::Depth,
-                        view_dimension: wgpu::TextureViewDimension::D2,
-                        multisampled: false,
-                    },
-                ),
-                entry(
-                    2,
-                    wgpu::ShaderStages::FRAGMENT,
-                    wgpu::BindingType::Texture {
-                        sample_type: wgpu::TextureSampleType::Uint,
-                        view_dimension: wgpu::TextureViewDimension::D2,
-                        multisampled: false,
-                    },
-                ),
-            ],
-        });
-        let numbers = wgpu::BindingType::Texture {
-            sample_type: wgpu::TextureSampleType::Float { filterable: false },
-            view_dimension: wgpu::TextureViewDimension::D2Array,
-            multisampled: false,
-        };
-        let character = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some("character"),
-            entries: &[
-                entry(0, both, uniform(character_bytes)),
-                entry(1, wgpu::ShaderStages::FRAGMENT, numbers),
-                entry(2, wgpu::ShaderStages::FRAGMENT, numbers),
-                entry(
-                    3,
-                    wgpu::ShaderStages::FRAGMENT,
-                    wgpu::BindingType::Sampler(wgpu::SamplerBindingType::NonFiltering),
-                ),
-                entry(
-                    4,
-                    wgpu::ShaderStages::FRAGMENT,
-                    wgpu::BindingType::Texture {
-                        sample_type: wgpu::TextureSampleType::Depth,
-                        view_dimension: wgpu::TextureViewDimension::D2Array,
-                        multisampled: false,
-                    },
-                ),
-                entry(
-                    5,
-                    wgpu::ShaderStages::FRAGMENT,
-                    wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Comparison),
-                ),
-            ],
-        });
-        Self { frame, character }
+        let read = |ty| (wgpu::ShaderStages::FRAGMENT, ty);
+        let frame = [
+            (both, bind::uniform(Some(frame_bytes))),
+            read(bind::texture(T::Depth, D::D2)),
+            read(bind::texture(T::Uint, D::D2)),
+        ];
+        let numbers = bind::texture(T::Float { filterable: false }, D::D2Array);
+        let character = [
+            (both, bind::uniform(Some(character_bytes))),
+            read(numbers),
+            read(numbers),
+            read(Sampler(SamplerBindingType::NonFiltering)),
+            read(bind::texture(T::Depth, D::D2Array)),
+            read(Sampler(SamplerBindingType::Comparison)),
+        ];
+        Self { frame: bind::layout(gpu, "frame", frame), character: bind::layout(gpu, "character", character) }
     }
 }
 
 /// A target that a frame of `size` can be drawn into and read back from.
 pub(crate) fn color_target(gpu: &Gpu, size: [u32; 2], output: Output) -> wgpu::TextureView {
-    targets::view(&targets::target(gpu, "target", size, 1, output.format, true))
+    targets::view(&targets::texture(gpu, "target", size, 1, output.format, wgpu::TextureUsages::COPY_SRC))
 }

@@ -1,7 +1,7 @@
 //! Size-dependent textures, made once for each size.
 
 use super::{
-    Output,
+    Output, bind,
     pass::{DEPTH_FORMAT, color_depth_format, prepass::SURFACES_FORMAT},
 };
 use crate::Gpu;
@@ -26,20 +26,15 @@ pub(crate) struct PrepassTargets {
     pub depth_view: wgpu::TextureView,
 }
 
-/// A texture to draw into.
-pub(crate) fn target(
+/// A texture to draw into; `more` is what else is done with it.
+pub(crate) fn texture(
     gpu: &Gpu,
     label: &str,
     size: [u32; 2],
     samples: u32,
     format: wgpu::TextureFormat,
-    copied: bool,
+    more: wgpu::TextureUsages,
 ) -> wgpu::Texture {
-    let copy = if copied {
-        wgpu::TextureUsages::COPY_SRC
-    } else {
-        wgpu::TextureUsages::empty()
-    };
     gpu.device.create_texture(&wgpu::TextureDescriptor {
         label: Some(label),
         size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
@@ -47,8 +42,41 @@ pub(crate) fn target(
         sample_count: samples,
         dimension: wgpu::TextureDimension::D2,
         format,
-        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | copy,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | more,
         view_formats: &[],
+    })
+}
+
+/// Layers of a square map that passes draw one by one and shaders read together.
+pub(crate) fn layers(gpu: &Gpu, label: &str, side: u32, layers: u32, format: wgpu::TextureFormat) -> wgpu::TextureView {
+    let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some(label),
+        size: wgpu::Extent3d { width: side, height: side, depth_or_array_layers: layers },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
+        view_formats: &[],
+    });
+    array_view(&texture)
+}
+
+/// All layers of a texture.
+pub(crate) fn array_view(texture: &wgpu::Texture) -> wgpu::TextureView {
+    texture.create_view(&wgpu::TextureViewDescriptor {
+        dimension: Some(wgpu::TextureViewDimension::D2Array),
+        ..Default::default()
+    })
+}
+
+/// One layer of a texture.
+pub(crate) fn layer(of: &wgpu::TextureView, base_array_layer: u32) -> wgpu::TextureView {
+    of.texture().create_view(&wgpu::TextureViewDescriptor {
+        dimension: Some(wgpu::TextureViewDimension::D2),
+        base_array_layer,
+        array_layer_count: Some(1),
+        ..Default::default()
     })
 }
 
@@ -58,7 +86,8 @@ pub(crate) fn view(texture: &wgpu::Texture) -> wgpu::TextureView {
 
 impl ColorTargets {
     pub fn new(gpu: &Gpu, size: [u32; 2], output: Output) -> Self {
-        let make = |label, format| view(&target(gpu, label, size, output.samples, format, false));
+        let make =
+            |label, format| view(&texture(gpu, label, size, output.samples, format, wgpu::TextureUsages::empty()));
         Self {
             size,
             multisampled: (output.samples > 1).then(|| make("multisampled colour", output.format)),
@@ -70,12 +99,8 @@ impl ColorTargets {
 impl PrepassTargets {
     /// Without normals and parts, these have one texel that nobody reads.
     pub fn new(gpu: &Gpu, size: [u32; 2], has_surfaces: bool) -> Self {
-        let make = |label, size, format| {
-            let usage = wgpu::TextureUsages::RENDER_ATTACHMENT
-                | wgpu::TextureUsages::TEXTURE_BINDING
-                | wgpu::TextureUsages::COPY_SRC;
-            texture(gpu, label, size, format, usage)
-        };
+        let read = wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_SRC;
+        let make = |label, size, format| texture(gpu, label, size, 1, format, read);
         let surfaces = make("surfaces", if has_surfaces { size } else { [1, 1] }, SURFACES_FORMAT);
         let depth = make("depth map", size, DEPTH_FORMAT);
         let (surfaces_view, depth_view) = (view(&surfaces), view(&depth));
@@ -83,29 +108,9 @@ impl PrepassTargets {
     }
 }
 
-fn texture(
-    gpu: &Gpu,
-    label: &str,
-    size: [u32; 2],
-    format: wgpu::TextureFormat,
-    usage: wgpu::TextureUsages,
-) -> wgpu::Texture {
-    gpu.device.create_texture(&wgpu::TextureDescriptor {
-        label: Some(label),
-        size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format,
-        usage,
-        view_formats: &[],
-    })
-}
-
 /// A picture that passes draw into and read.
 pub(crate) fn sampled(gpu: &Gpu, label: &str, size: [u32; 2], format: wgpu::TextureFormat) -> wgpu::TextureView {
-    let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING;
-    view(&texture(gpu, label, size, format, usage))
+    view(&texture(gpu, label, size, 1, format, wgpu::TextureUsages::TEXTURE_BINDING))
 }
 
 /// Reads pictures between their texels, up to their border.
@@ -119,24 +124,10 @@ pub(crate) fn linear_sampler(gpu: &Gpu) -> wgpu::Sampler {
 
 /// Layout of a pass over whole pictures: numbers of `uniform` bytes where it has some, the pictures, their sampler.
 pub(crate) fn picture_layout(gpu: &Gpu, label: &str, pictures: u32, uniform: Option<u64>) -> wgpu::BindGroupLayout {
-    let stages = wgpu::ShaderStages::FRAGMENT;
-    let mut types = Vec::new();
-    types.extend(uniform.map(|size| wgpu::BindingType::Buffer {
-        ty: wgpu::BufferBindingType::Uniform,
-        has_dynamic_offset: false,
-        min_binding_size: wgpu::BufferSize::new(size),
-    }));
-    types.extend((0..pictures).map(|_| wgpu::BindingType::Texture {
-        sample_type: wgpu::TextureSampleType::Float { filterable: true },
-        view_dimension: wgpu::TextureViewDimension::D2,
-        multisampled: false,
-    }));
-    types.push(wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering));
-    let entries: Vec<_> = (0..)
-        .zip(types)
-        .map(|(binding, ty)| wgpu::BindGroupLayoutEntry { binding, visibility: stages, ty, count: None })
-        .collect();
-    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some(label), entries: &entries })
+    let pictures = (0..pictures).map(|_| bind::filtered(wgpu::TextureViewDimension::D2));
+    let sampler = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering);
+    let types = uniform.map(|size| bind::uniform(Some(size))).into_iter().chain(pictures).chain([sampler]);
+    bind::layout(gpu, label, types.map(|ty| (wgpu::ShaderStages::FRAGMENT, ty)))
 }
 
 /// Group of [`picture_layout`].
@@ -147,20 +138,16 @@ pub(crate) fn picture_group(
     pictures: &[&wgpu::TextureView],
     sampler: &wgpu::Sampler,
 ) -> wgpu::BindGroup {
-    let mut resources: Vec<wgpu::BindingResource<'_>> =
-        uniform.map(wgpu::Buffer::as_entire_binding).into_iter().collect();
-    resources.extend(pictures.iter().copied().map(wgpu::BindingResource::TextureView));
-    resources.push(wgpu::BindingResource::Sampler(sampler));
-    let entries: Vec<_> =
-        (0..).zip(resources).map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource }).collect();
-    gpu.device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout, entries: &entries })
+    let pictures = pictures.iter().copied().map(wgpu::BindingResource::TextureView);
+    let numbers = uniform.map(wgpu::Buffer::as_entire_binding).into_iter();
+    bind::group(gpu, "pictures", layout, numbers.chain(pictures).chain([wgpu::BindingResource::Sampler(sampler)]))
 }
 
-/// Pipeline of a pass over whole pictures.
+/// Pipeline of a pass over whole pictures; without a layout, the shader's own.
 pub(crate) fn picture_pipeline(
     gpu: &Gpu,
     label: &str,
-    layout: &wgpu::PipelineLayout,
+    layout: Option<&wgpu::PipelineLayout>,
     module: &wgpu::ShaderModule,
     fragment: &str,
     format: wgpu::TextureFormat,
@@ -168,7 +155,7 @@ pub(crate) fn picture_pipeline(
 ) -> wgpu::RenderPipeline {
     gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some(label),
-        layout: Some(layout),
+        layout,
         vertex: wgpu::VertexState {
             module,
             entry_point: Some("vs_main"),
@@ -204,18 +191,45 @@ pub(crate) fn draw_picture(
     } else {
         wgpu::LoadOp::Load
     };
-    let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-        label: Some(label),
-        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-            view: into,
-            depth_slice: None,
-            resolve_target: None,
-            ops: wgpu::Operations { load, store: wgpu::StoreOp::Store },
-        })],
-        timestamp_writes: timestamps,
-        ..Default::default()
-    });
+    let mut pass = begin(encoder, label, Some(color(into, load)), None, timestamps);
     pass.set_pipeline(pipeline);
     pass.set_bind_group(0, group, &[]);
     pass.draw(0..3, 0..1);
+}
+
+/// A pass into a colour, a depth, or both.
+pub(crate) fn begin<'e>(
+    encoder: &'e mut wgpu::CommandEncoder,
+    label: &str,
+    color: Option<wgpu::RenderPassColorAttachment<'_>>,
+    depth_stencil_attachment: Option<wgpu::RenderPassDepthStencilAttachment<'_>>,
+    timestamp_writes: Option<wgpu::RenderPassTimestampWrites<'_>>,
+) -> wgpu::RenderPass<'e> {
+    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        label: Some(label),
+        color_attachments: if color.is_some() {
+            std::slice::from_ref(&color)
+        } else {
+            &[]
+        },
+        depth_stencil_attachment,
+        timestamp_writes,
+        ..Default::default()
+    })
+}
+
+/// A colour that is kept.
+pub(crate) fn color(view: &wgpu::TextureView, load: wgpu::LoadOp<wgpu::Color>) -> wgpu::RenderPassColorAttachment<'_> {
+    let ops = wgpu::Operations { load, store: wgpu::StoreOp::Store };
+    wgpu::RenderPassColorAttachment { view, depth_slice: None, resolve_target: None, ops }
+}
+
+/// A depth that starts at `clear`.
+pub(crate) fn depth(
+    view: &wgpu::TextureView,
+    clear: f32,
+    store: wgpu::StoreOp,
+) -> wgpu::RenderPassDepthStencilAttachment<'_> {
+    let depth_ops = Some(wgpu::Operations { load: wgpu::LoadOp::Clear(clear), store });
+    wgpu::RenderPassDepthStencilAttachment { view, depth_ops, stencil_ops: None }
 }

@@ -8,6 +8,7 @@ use std::{
 
 use rayon::prelude::*;
 
+use super::targets::array_view;
 use crate::{
     Error, Gpu, Result,
     color::{linear_from_srgb, srgb_from_linear},
@@ -165,13 +166,6 @@ pub(crate) fn face_map(gpu: &Gpu, map: &FaceMap) -> Result<wgpu::TextureView> {
         }
     }
     Ok(array_view(&texture))
-}
-
-fn array_view(texture: &wgpu::Texture) -> wgpu::TextureView {
-    texture.create_view(&wgpu::TextureViewDescriptor {
-        dimension: Some(wgpu::TextureViewDimension::D2Array),
-        ..Default::default()
-    })
 }
 
 /// Box filter to half size.

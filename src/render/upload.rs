@@ -5,7 +5,6 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use glam::Mat4;
-use wgpu::util::DeviceExt;
 
 use super::draw_list::{self, Pipelines, casts_on_face, through_order};
 use super::frame::character_numbers;
@@ -18,7 +17,7 @@ use super::pass::bangs_shadow::{BangsMap, map_texture};
 use super::pass::shadow::{self, ShadowMap};
 use super::pass::{Picture, Sight, color_depth_format};
 use super::textures::{self, TextureSet};
-use super::{Renderer, uv_metric};
+use super::{Renderer, bind, uv_metric};
 use crate::material::{Encoding, MAX_SHELLS, Material, Surroundings, out_of_range};
 use crate::motion::{Driven, Pose};
 use crate::scene::{Image, Scene};
@@ -97,11 +96,7 @@ impl Renderer {
         let geometry = Geometry::gather(scene);
         let gpu = self.gpu().clone();
         let device = &gpu.device;
-        let buffer = |label, contents: &[u8], usage| {
-            // Empty bindings are invalid; four unread bytes stand for nothing.
-            let contents = if contents.is_empty() { &[0u8; 64] } else { contents };
-            device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some(label), contents, usage })
-        };
+        let buffer = |label, contents: &[u8], usage| bind::filled(&gpu, label, contents, usage);
         use wgpu::BufferUsages as U;
         let Described { sources, compositions, metres_per_uv, driven } = described;
         let places = Arc::clone(&self.variants.shaders.places);
@@ -241,13 +236,7 @@ impl Renderer {
             view(shadow.map_or(&no_shadow, |s| &s.view)),
             wgpu::BindingResource::Sampler(&samplers.compare),
         ];
-        let entries: Vec<_> =
-            (0..).zip(resources).map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource }).collect();
-        self.gpu().device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("character"),
-            layout: &self.layouts.character,
-            entries: &entries,
-        })
+        bind::group(self.gpu(), "character", &self.layouts.character, resources)
     }
 
     /// The shadow maps of the scene's characters, where something casts and something receives.

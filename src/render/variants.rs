@@ -5,6 +5,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use rayon::prelude::*;
 
+use super::bind;
 use super::shaders::{Binding, BindingKind, Linked, Recipe, Shaders};
 use crate::{Gpu, Result};
 
@@ -180,22 +181,14 @@ fn pipeline_layout(gpu: &Gpu, groups: &[Option<&wgpu::BindGroupLayout>]) -> wgpu
 }
 
 fn layout_entry(binding: &Binding) -> wgpu::BindGroupLayoutEntry {
-    let texture = |view_dimension| wgpu::BindingType::Texture {
-        sample_type: wgpu::TextureSampleType::Float { filterable: true },
-        view_dimension,
-        multisampled: false,
-    };
+    use wgpu::TextureViewDimension as D;
     wgpu::BindGroupLayoutEntry {
         binding: binding.index,
         visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
         ty: match binding.kind {
-            BindingKind::Numbers => wgpu::BindingType::Buffer {
-                ty: wgpu::BufferBindingType::Uniform,
-                has_dynamic_offset: false,
-                min_binding_size: None,
-            },
-            BindingKind::Texture => texture(wgpu::TextureViewDimension::D2),
-            BindingKind::TextureArray => texture(wgpu::TextureViewDimension::D2Array),
+            BindingKind::Numbers => bind::uniform(None),
+            BindingKind::Texture => bind::filtered(D::D2),
+            BindingKind::TextureArray => bind::filtered(D::D2Array),
             BindingKind::Sampler => wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering),
         },
         count: None,

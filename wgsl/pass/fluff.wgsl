@@ -1,5 +1,6 @@
 // Fluff: shells of a coat of short hair, from the root outwards, blended over each other.
 import package::bind::frame::frame;
+import package::bind::pixel::{Pixel, pixel};
 import package::bind::surface::{drawn, encoded};
 import package::bind::varying::{Varying, surface_varying};
 import package::bind::vertex::VertexInput;
@@ -23,22 +24,9 @@ fn vs_main(vertex: VertexInput) -> Varying {
     return out;
 }
 
-@if(!dither_samples)
 @fragment
-fn fs_main(in: Varying) -> @location(0) vec4f {
-    return shell(in);
-}
-
-@if(dither_samples)
-struct DitheredOutput {
-    @location(0) color: vec4f,
-    @builtin(sample_mask) samples: u32,
-}
-
-@if(dither_samples)
-@fragment
-fn fs_main(in: Varying) -> DitheredOutput {
-    return DitheredOutput(shell(in), stage_samples(in));
+fn fs_main(in: Varying) -> Pixel {
+    return pixel(shell(in), stage_samples(in));
 }
 
 fn shell(in: Varying) -> vec4f {

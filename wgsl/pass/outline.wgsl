@@ -1,6 +1,7 @@
 // Outlines: back faces pushed outwards along smoothed normals.
 import package::bind::frame::frame;
 import package::bind::lights::arriving_light;
+import package::bind::pixel::{Pixel, pixel};
 import package::bind::surface::{drawn, encoded, surface_of};
 import package::bind::uv::texture_uv;
 import package::bind::varying::{Varying, surface_varying};
@@ -44,22 +45,9 @@ fn vs_main(v: VertexInput) -> Varying {
     return out;
 }
 
-@if(!dither_samples)
 @fragment
-fn fs_main(in: Varying) -> @location(0) vec4f {
-    return line(in);
-}
-
-@if(dither_samples)
-struct DitheredOutput {
-    @location(0) color: vec4f,
-    @builtin(sample_mask) samples: u32,
-}
-
-@if(dither_samples)
-@fragment
-fn fs_main(in: Varying) -> DitheredOutput {
-    return DitheredOutput(line(in), stage_samples(in));
+fn fs_main(in: Varying) -> Pixel {
+    return pixel(line(in), stage_samples(in));
 }
 
 fn line(in: Varying) -> vec4f {

@@ -3,6 +3,7 @@
 use super::bangs_shadow;
 use crate::render::shaders::Recipe;
 use crate::render::variants::Variants;
+use crate::render::{bind, targets};
 use crate::{Gpu, Result};
 
 /// Texels of the map along a block; `BANGS_BLOCK` in `wgsl/lib/bangs.wgsl` (a test compares them).
@@ -23,37 +24,15 @@ pub(crate) struct BangsNearInputs<'a> {
 impl BangsNearPass {
     pub fn new(variants: &Variants) -> Result<Self> {
         let module = variants.plain_module(&Recipe::plain("bangs_near"))?;
-        let pipeline = variants.gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-            label: Some("bangs near"),
-            layout: None,
-            vertex: wgpu::VertexState {
-                module: &module,
-                entry_point: Some("vs_main"),
-                compilation_options: wgpu::PipelineCompilationOptions::default(),
-                buffers: &[],
-            },
-            primitive: wgpu::PrimitiveState::default(),
-            depth_stencil: None,
-            multisample: wgpu::MultisampleState::default(),
-            fragment: Some(wgpu::FragmentState {
-                module: &module,
-                entry_point: Some("fs_main"),
-                compilation_options: wgpu::PipelineCompilationOptions::default(),
-                targets: &[Some(bangs_shadow::FORMAT.into())],
-            }),
-            multiview_mask: None,
-            cache: None,
-        });
+        let format = bangs_shadow::FORMAT;
+        let pipeline = targets::picture_pipeline(&variants.gpu, "bangs near", None, &module, "fs_main", format, None);
         Ok(Self { pipeline })
     }
 
     /// Binds a layer of the map.
     pub fn group(&self, gpu: &Gpu, layer: &wgpu::TextureView) -> wgpu::BindGroup {
-        gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("bangs near"),
-            layout: &self.pipeline.get_bind_group_layout(0),
-            entries: &[wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(layer) }],
-        })
+        let layer = wgpu::BindingResource::TextureView(layer);
+        bind::group(gpu, "bangs near", &self.pipeline.get_bind_group_layout(0), [layer])
     }
 
     /// Finds the nearest depths of one layer.
@@ -63,20 +42,7 @@ impl BangsNearPass {
         inputs: &BangsNearInputs<'_>,
         timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
     ) {
-        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("bangs near"),
-            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                view: inputs.near,
-                depth_slice: None,
-                resolve_target: None,
-                ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::WHITE), store: wgpu::StoreOp::Store },
-            })],
-            timestamp_writes: timestamps,
-            ..Default::default()
-        });
-        pass.set_pipeline(&self.pipeline);
-        pass.set_bind_group(0, inputs.map, &[]);
-        pass.draw(0..3, 0..1);
+        targets::draw_picture(encoder, "bangs near", inputs.near, true, &self.pipeline, inputs.map, timestamps);
     }
 }
 

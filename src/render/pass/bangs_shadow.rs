@@ -80,21 +80,21 @@ impl BangsMap {
         let count = if lids { 2 } else { 1 };
         let view = map_texture(gpu, side, count);
         let near = map_texture(gpu, side.div_ceil(bangs_near::BLOCK), count);
-        let layer = |of: &wgpu::TextureView, base_array_layer| {
-            of.texture().create_view(&wgpu::TextureViewDescriptor {
-                dimension: Some(wgpu::TextureViewDimension::D2),
-                base_array_layer,
-                array_layer_count: Some(1),
-                ..Default::default()
-            })
-        };
         let layers = (0..count)
             .map(|i| {
-                let map = layer(&view, i);
-                Layer { near_input: reduce.group(gpu, &map), map, near: layer(&near, i) }
+                let map = targets::layer(&view, i);
+                Layer { near_input: reduce.group(gpu, &map), map, near: targets::layer(&near, i) }
             })
             .collect();
-        Self { bangs, middle, half, layers, near, view, depth: depth_texture(gpu, side) }
+        Self {
+            bangs,
+            middle,
+            half,
+            layers,
+            near,
+            view,
+            depth: targets::layers(gpu, "bangs depth", side, 1, DEPTH_FORMAT),
+        }
     }
 
     /// Rows of the map from character space. `head` moves the head from its rest; `to_light` is in character space.
@@ -125,34 +125,7 @@ impl BangsMap {
 
 /// A map without hair, for characters that have none; [`BangsMap`] makes those that are drawn.
 pub(crate) fn map_texture(gpu: &Gpu, side: u32, layers: u32) -> wgpu::TextureView {
-    let texture = texture(gpu, "bangs", [side, layers], FORMAT, wgpu::TextureUsages::TEXTURE_BINDING);
-    texture.create_view(&wgpu::TextureViewDescriptor {
-        dimension: Some(wgpu::TextureViewDimension::D2Array),
-        ..Default::default()
-    })
-}
-
-fn depth_texture(gpu: &Gpu, side: u32) -> wgpu::TextureView {
-    targets::view(&texture(gpu, "bangs depth", [side, 1], DEPTH_FORMAT, wgpu::TextureUsages::empty()))
-}
-
-fn texture(
-    gpu: &Gpu,
-    label: &str,
-    [side, layers]: [u32; 2],
-    format: wgpu::TextureFormat,
-    more: wgpu::TextureUsages,
-) -> wgpu::Texture {
-    gpu.device.create_texture(&wgpu::TextureDescriptor {
-        label: Some(label),
-        size: wgpu::Extent3d { width: side, height: side, depth_or_array_layers: layers },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format,
-        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | more,
-        view_formats: &[],
-    })
+    targets::layers(gpu, "bangs", side, layers, FORMAT)
 }
 
 /// What draws a material.
@@ -186,23 +159,10 @@ fn encode_layer(
     casts: Casts,
     timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
 ) {
-    let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-        label: Some("bangs shadow"),
-        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-            view: layer,
-            depth_slice: None,
-            resolve_target: None,
-            // No hair: behind everything.
-            ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::WHITE), store: wgpu::StoreOp::Store },
-        })],
-        depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-            view: &inputs.map.depth,
-            depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(1.0), store: wgpu::StoreOp::Discard }),
-            stencil_ops: None,
-        }),
-        timestamp_writes: timestamps,
-        ..Default::default()
-    });
+    // No hair: behind everything.
+    let map = targets::color(layer, wgpu::LoadOp::Clear(wgpu::Color::WHITE));
+    let depth = targets::depth(&inputs.map.depth, 1.0, wgpu::StoreOp::Discard);
+    let mut pass = targets::begin(encoder, "bangs shadow", Some(map), Some(depth), timestamps);
     // The map itself cannot be read while it is drawn.
     let character = &inputs.scene.character_group_without_map;
     draw_list::bind_scene(&mut pass, inputs.scene, inputs.frame, character);

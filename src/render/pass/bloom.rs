@@ -37,8 +37,9 @@ impl BloomPass {
             bind_group_layouts: &[Some(&layout)],
             immediate_size: 0,
         });
-        let make =
-            |entry, blend| targets::picture_pipeline(gpu, "bloom", &pipeline_layout, &module, entry, HDR_FORMAT, blend);
+        let make = |entry, blend| {
+            targets::picture_pipeline(gpu, "bloom", Some(&pipeline_layout), &module, entry, HDR_FORMAT, blend)
+        };
         let (down, up) = (make("fs_down", None), make("fs_up", Some(ADD)));
         let sampler = targets::linear_sampler(gpu);
         Ok(Self { layout, sampler, down, up })

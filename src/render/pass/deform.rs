@@ -1,7 +1,6 @@
 //! Morphs and skin in compute: once for every new pose, read by every later pass.
 
-use wgpu::util::DeviceExt;
-
+use crate::render::bind;
 use crate::render::gpu_scene::GpuScene;
 use crate::render::shaders::Recipe;
 use crate::render::variants::Variants;
@@ -62,23 +61,8 @@ impl DeformPass {
     /// Uploads what deforms a scene.
     pub fn buffers(&self, gpu: &Gpu, input: &DeformInput<'_>) -> DeformBuffers {
         use wgpu::BufferUsages as U;
-        let fixed = |label, contents: &[u8]| {
-            // Empty bindings are invalid; one unread element stands for nothing.
-            let contents = if contents.is_empty() { &[0u8; 64] } else { contents };
-            gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-                label: Some(label),
-                contents,
-                usage: U::STORAGE,
-            })
-        };
-        let sized = |label, bytes: usize, usage| {
-            gpu.device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some(label),
-                size: bytes.max(64) as u64,
-                usage,
-                mapped_at_creation: false,
-            })
-        };
+        let fixed = |label, contents| bind::filled(gpu, label, contents, U::STORAGE);
+        let sized = |label, bytes: usize, usage| bind::buffer(gpu, label, bytes.max(64) as u64, usage);
         let groups = fixed("deform groups", bytemuck::cast_slice(input.groups));
         let source = fixed("source vertices", bytemuck::cast_slice(input.source));
         let vertex_refs = fixed("vertex refs", bytemuck::cast_slice(input.vertex_refs));
@@ -88,15 +72,8 @@ impl DeformPass {
         let weights = sized("morph weights", input.weight_count * size_of::<f32>(), U::STORAGE | U::COPY_DST);
         let deformed = sized("deformed vertices", size_of_val(input.source), U::STORAGE | U::VERTEX);
         let bound = [&groups, &source, &vertex_refs, &influences, &morphs, &joints, &weights, &deformed];
-        let entries: Vec<_> = (0u32..)
-            .zip(bound)
-            .map(|(binding, buffer)| wgpu::BindGroupEntry { binding, resource: buffer.as_entire_binding() })
-            .collect();
-        let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("deform"),
-            layout: &self.pipeline.get_bind_group_layout(0),
-            entries: &entries,
-        });
+        let layout = self.pipeline.get_bind_group_layout(0);
+        let group = bind::group(gpu, "deform", &layout, bound.iter().map(|b| b.as_entire_binding()));
         let fixed_bytes = bound[..5].iter().map(|b| b.size()).sum();
         DeformBuffers { joints, weights, deformed, group, vertices: input.source.len() as u32, fixed_bytes }
     }

@@ -15,11 +15,13 @@ fn shells(fluff: &Fluff, px_per_m: f32) -> u32 {
 
 /// What draws the coat of a material.
 pub(crate) fn request(picture: &Picture<'_>, of: &Composition, colors: bool) -> Request {
+    let dithers = of.takes_part("samples") && picture.has_samples();
     // A coat has no contour of its own, and its holes are strands.
     let recipe = of
         .recipe("fluff", colors, |c| !c.about.needs.contains(&"prepass"))
         .with("level", true)
-        .with("dither_samples", of.takes_part("samples") && picture.has_samples());
+        .with("dither_samples", dithers)
+        .with("covered", dithers);
     // Shells lie over each other in their order.
     let drawing = Drawing { cull: Some(wgpu::Face::Back), blend: true, write_depth: false, mark: Mark::None };
     picture.request(recipe, drawing)

@@ -42,17 +42,8 @@ pub(crate) fn encode(
     timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
 ) {
     let GlowInputs { scene, frame, light } = inputs;
-    let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-        label: Some("glow"),
-        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-            view: light,
-            depth_slice: None,
-            resolve_target: None,
-            ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::BLACK), store: wgpu::StoreOp::Store },
-        })],
-        timestamp_writes: timestamps,
-        ..Default::default()
-    });
+    let light = targets::color(light, wgpu::LoadOp::Clear(wgpu::Color::BLACK));
+    let mut pass = targets::begin(encoder, "glow", Some(light), None, timestamps);
     draw_list::bind_scene(&mut pass, scene, frame, &scene.character_group);
     for (draw, pipelines) in scene.draws.iter().zip(&scene.picture) {
         if let Some(glow) = &pipelines.glow {

@@ -35,6 +35,7 @@ pub(crate) fn request(picture: &Picture<'_>, of: &Composition, material: &Materi
         .with("blend", blend)
         .with("world", is_tinted)
         .with("dither_samples", dithers)
+        .with("covered", dithers)
         .with("alpha_mask", of.alpha == AlphaMode::Mask);
     let write_depth = !blend || material.alpha.write_depth;
     Some(picture.request(recipe, Drawing { cull: Some(wgpu::Face::Front), blend, write_depth, mark: Mark::None }))

@@ -5,7 +5,7 @@ use crate::render::frame::{post_numbers, put_post};
 use crate::render::layout::Filled;
 use crate::render::shaders::Recipe;
 use crate::render::variants::Variants;
-use crate::render::{Background, Output, targets};
+use crate::render::{Background, Output, bind, targets};
 use crate::scene::Post;
 use crate::{Gpu, Result};
 
@@ -46,12 +46,12 @@ impl PostPass {
             pipeline_layout,
             layout,
             sampler: targets::linear_sampler(gpu),
-            uniform: gpu.device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some("post"),
-                size: numbers.size(),
-                usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
-                mapped_at_creation: false,
-            }),
+            uniform: bind::buffer(
+                gpu,
+                "post",
+                numbers.size(),
+                wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+            ),
             numbers,
         })
     }
@@ -92,5 +92,5 @@ fn pipeline(
 ) -> Result<wgpu::RenderPipeline> {
     let recipe = Recipe::plain("post").with("encode_srgb", encodes_srgb(output.format)).with("antialias", smooths);
     let module = variants.plain_module(&recipe)?;
-    Ok(targets::picture_pipeline(&variants.gpu, "post", layout, &module, "fs_main", output.format, None))
+    Ok(targets::picture_pipeline(&variants.gpu, "post", Some(layout), &module, "fs_main", output.format, None))
 }

@@ -5,7 +5,7 @@ use crate::material::Material;
 use crate::render::draw_list;
 use crate::render::gpu_scene::GpuScene;
 use crate::render::material::Composition;
-use crate::render::targets::PrepassTargets;
+use crate::render::targets::{self, PrepassTargets};
 use crate::render::variants::{Drawn, Request, State};
 
 /// Format of the world normal (octahedral, two halves of a word) and the part index + 1.
@@ -38,27 +38,11 @@ pub(crate) fn encode(
     inputs: PrepassInputs<'_>,
     timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
 ) {
-    let surfaces = Some(wgpu::RenderPassColorAttachment {
-        view: &inputs.targets.surfaces_view,
-        depth_slice: None,
-        resolve_target: None,
-        ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT), store: wgpu::StoreOp::Store },
-    });
-    let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-        label: Some("prepass"),
-        color_attachments: if inputs.surfaces {
-            std::slice::from_ref(&surfaces)
-        } else {
-            &[]
-        },
-        depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-            view: &inputs.targets.depth_view,
-            depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store }),
-            stencil_ops: None,
-        }),
-        timestamp_writes: timestamps,
-        ..Default::default()
-    });
+    let PrepassTargets { surfaces_view, depth_view, .. } = inputs.targets;
+    let surfaces =
+        inputs.surfaces.then(|| targets::color(surfaces_view, wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT)));
+    let depth = targets::depth(depth_view, 0.0, wgpu::StoreOp::Store);
+    let mut pass = targets::begin(encoder, "prepass", surfaces, Some(depth), timestamps);
     draw_list::bind_scene(&mut pass, inputs.scene, inputs.frame, &inputs.scene.character_group);
     for (draw, drawn) in inputs.scene.draws.iter().zip(inputs.drawn) {
         if let Some(drawn) = drawn {

@@ -7,6 +7,7 @@ use crate::Gpu;
 use crate::render::draw_list;
 use crate::render::gpu_scene::GpuScene;
 use crate::render::material::Composition;
+use crate::render::targets;
 use crate::render::variants::Request;
 use crate::scene::{MOST_SHADOWED, SelfShadow};
 
@@ -61,15 +62,7 @@ impl ShadowMap {
             return false;
         }
         self.view = map_texture(gpu, self.settings.side, wanted);
-        let layer = |base_array_layer| {
-            self.view.texture().create_view(&wgpu::TextureViewDescriptor {
-                dimension: Some(wgpu::TextureViewDimension::D2),
-                base_array_layer,
-                array_layer_count: Some(1),
-                ..Default::default()
-            })
-        };
-        self.layers = (0..wanted).map(layer).collect();
+        self.layers = (0..wanted).map(|i| targets::layer(&self.view, i)).collect();
         true
     }
 
@@ -96,20 +89,7 @@ impl ShadowMap {
 
 /// Maps without a character.
 pub(crate) fn map_texture(gpu: &Gpu, side: u32, layers: u32) -> wgpu::TextureView {
-    let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("shadow"),
-        size: wgpu::Extent3d { width: side, height: side, depth_or_array_layers: layers },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format: DEPTH_FORMAT,
-        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
-        view_formats: &[],
-    });
-    texture.create_view(&wgpu::TextureViewDescriptor {
-        dimension: Some(wgpu::TextureViewDimension::D2Array),
-        ..Default::default()
-    })
+    targets::layers(gpu, "shadow", side, layers, DEPTH_FORMAT)
 }
 
 /// Compares a receiver with the map: lit where nothing is nearer to the light.
@@ -144,16 +124,8 @@ pub(crate) fn encode(
         });
         let writes =
             writes.filter(|w| w.beginning_of_pass_write_index.is_some() || w.end_of_pass_write_index.is_some());
-        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("shadow"),
-            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                view: layer,
-                depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(1.0), store: wgpu::StoreOp::Store }),
-                stencil_ops: None,
-            }),
-            timestamp_writes: writes,
-            ..Default::default()
-        });
+        let depth = targets::depth(layer, 1.0, wgpu::StoreOp::Store);
+        let mut pass = targets::begin(encoder, "shadow", None, Some(depth), writes);
         // The map itself cannot be read while it is drawn.
         draw_list::bind_scene(&mut pass, inputs.scene, inputs.frame, &inputs.scene.character_group_without_map);
         for (draw, pipelines) in inputs.scene.draws.iter().zip(&inputs.scene.picture) {
