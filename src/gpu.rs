@@ -1,10 +1,12 @@
 //! The graphics device: found headless, or taken from an application that has one.
 
+use std::sync::Arc;
+
 use serde::Serialize;
 
 use crate::{Error, Result};
 
-/// A graphics device and its queue.
+/// A graphics device and its queue. Clones are the same device; what one renderer uploads, others of the same may draw.
 #[derive(Clone, Debug)]
 pub struct Gpu {
     /// The device.
@@ -12,6 +14,8 @@ pub struct Gpu {
     /// Its queue.
     pub queue: wgpu::Queue,
     info: AdapterInfo,
+    /// What tells it from others: devices of several instances count as equal.
+    identity: Arc<()>,
 }
 
 /// What an adapter is.
@@ -55,9 +59,7 @@ impl Gpu {
             return Err(no_adapter(name, &adapters));
         };
         let limits = wgpu::Limits { max_texture_dimension_2d: MAX_TEXTURE_SIDE, ..Self::required_limits(adapter) };
-        // The second for eyes through hair.
-        let wanted = wgpu::Features::TIMESTAMP_QUERY | wgpu::Features::DEPTH32FLOAT_STENCIL8;
-        let features = adapter.features() & wanted;
+        let features = Self::wanted_features(adapter);
         let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("hikage"),
             required_features: features,
@@ -69,10 +71,11 @@ impl Gpu {
         Ok(Self::from_parts(adapter, device, queue))
     }
 
-    /// Takes the device of an application. It needs at least [`Gpu::required_limits`].
+    /// Takes the device of an application. It needs at least [`Gpu::required_limits`], and should have
+    /// [`Gpu::wanted_features`].
     #[must_use]
     pub fn from_parts(adapter: &wgpu::Adapter, device: wgpu::Device, queue: wgpu::Queue) -> Self {
-        Self { device, queue, info: describe(&adapter.get_info()) }
+        Self { device, queue, info: describe(&adapter.get_info()), identity: Arc::default() }
     }
 
     /// Limits that Hikage needs: WebGPU's defaults, with buffers as large as the adapter has them.
@@ -86,6 +89,32 @@ impl Gpu {
         }
     }
 
+    /// Features of the adapter that Hikage uses where a device has them: a stencil beside 32 bits of depth for eyes through
+    /// hair, which stays away without it, and timestamps for the times of passes.
+    #[must_use]
+    pub fn wanted_features(adapter: &wgpu::Adapter) -> wgpu::Features {
+        adapter.features() & (wgpu::Features::DEPTH32FLOAT_STENCIL8 | wgpu::Features::TIMESTAMP_QUERY)
+    }
+
+    /// Refuses a device with smaller limits than WebGPU's defaults; buffers may be smaller.
+    pub(crate) fn check_limits(&self) -> Result<()> {
+        let has = self.device.limits();
+        let needed = wgpu::Limits {
+            max_buffer_size: has.max_buffer_size,
+            max_storage_buffer_binding_size: has.max_storage_buffer_binding_size,
+            ..wgpu::Limits::default()
+        };
+        let mut faults = Vec::new();
+        needed.check_limits_with_fail_fn(&has, false, |name, needed, has| {
+            faults.push(format!("{name} is {has}, {needed} are needed"));
+        });
+        if faults.is_empty() {
+            return Ok(());
+        }
+        let faults = faults.join("; ");
+        Err(Error::Gpu(format!("the device is too small: {faults}; please request it with Gpu::required_limits")))
+    }
+
     /// All adapters of this machine.
     #[must_use]
     pub fn adapters() -> Vec<AdapterInfo> {
@@ -96,6 +125,11 @@ impl Gpu {
     #[must_use]
     pub fn info(&self) -> &AdapterInfo {
         &self.info
+    }
+
+    /// Whether it is a clone of another.
+    pub(crate) fn is(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.identity, &other.identity)
     }
 
     /// Runs `work` and turns the validation and memory errors that it causes into an [`Error::Gpu`].

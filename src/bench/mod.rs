@@ -153,7 +153,7 @@ impl<'a> Stage<'a> {
     fn draw(&mut self, is_frame: bool) -> Result<()> {
         let Self { gpu, renderer, uploaded, scene, poses, view, target, floor, clock } = self;
         poses.swap(0, 1);
-        uploaded.set_pose(gpu, scene, &poses[0]);
+        uploaded.set_pose(scene, &poses[0])?;
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("bench") });
         let shown = if is_frame { Shown::Picture } else { Shown::Floor(floor) };
         renderer.encode(&mut encoder, uploaded, view, target, shown, clock)?;

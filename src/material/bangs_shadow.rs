@@ -8,7 +8,7 @@ crate::section! {
     /// normal shading, as on the neck, there is none.
     #[derive(Copy)]
     BangsShadow = "bangs_shadow" {
-        needs: &["bangs"],
+        needs: &["bangs", "actor"],
         channel: Some((
             "bangs-shadow",
             "Share of light that bangs, lids and lashes let through; black where nothing receives their shadow.",

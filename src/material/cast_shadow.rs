@@ -8,7 +8,7 @@ crate::section! {
     /// [`FaceShadow`](super::FaceShadow) receives it only where its map leaves it to normal shading: on the neck.
     #[derive(Copy)]
     CastShadow = "cast_shadow" {
-        needs: &["shadow"],
+        needs: &["shadow", "actor"],
         channel: Some((
             "self-shadow",
             "Share of the key light that a character lets through to itself; black where nothing receives its shadow.",

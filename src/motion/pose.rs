@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::{
+    Error, Result,
     material::Material,
     scene::{Scene, Transform},
 };
@@ -27,6 +28,29 @@ impl Pose {
             locals: scene.nodes.iter().map(|n| n.transform).collect(),
             morph_weights: scene.nodes.iter().map(|n| n.morph_weights.clone()).collect(),
             materials: BTreeMap::new(),
+        }
+    }
+
+    /// Refuses what is not a pose of this scene. Empty lists are those of rest.
+    pub(crate) fn check(&self, scene: &Scene) -> Result<()> {
+        let fault = |what: String, message: String| Err(Error::Argument { what, message });
+        for (name, count) in [("locals", self.locals.len()), ("morph_weights", self.morph_weights.len())] {
+            if count != scene.nodes.len() && count != 0 {
+                let message = format!("has {count} nodes; the scene has {}", scene.nodes.len());
+                return fault(format!("pose.{name}"), message);
+            }
+        }
+        let name = |node: usize| &scene.nodes[node].name;
+        if let Some(at) = self.locals.iter().position(|local| !local.matrix().is_finite()) {
+            return fault(format!("pose.locals[{at}] {:?}", name(at)), "is not finite".to_owned());
+        }
+        let is_finite = |weights: &Vec<f32>| weights.iter().all(|w| w.is_finite());
+        if let Some(at) = self.morph_weights.iter().position(|w| !is_finite(w)) {
+            return fault(format!("pose.morph_weights[{at}] {:?}", name(at)), "is not finite".to_owned());
+        }
+        match self.materials.keys().find(|m| **m >= scene.materials.len()) {
+            Some(at) => fault(format!("pose.materials[{at}]"), format!("there are {}", scene.materials.len())),
+            None => Ok(()),
         }
     }
 }

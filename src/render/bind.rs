@@ -1,6 +1,5 @@
 //! What shaders bind: layouts and groups whose bindings are numbered in their order, and buffers.
 
-use wgpu::util::DeviceExt;
 use wgpu::{BindingResource, BindingType, TextureSampleType, TextureViewDimension};
 
 use crate::Gpu;
@@ -25,6 +24,12 @@ pub(crate) fn uniform(bytes: Option<u64>) -> BindingType {
         has_dynamic_offset: false,
         min_binding_size: bytes.and_then(wgpu::BufferSize::new),
     }
+}
+
+/// A list that shaders read.
+pub(crate) fn storage() -> BindingType {
+    let ty = wgpu::BufferBindingType::Storage { read_only: true };
+    BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None }
 }
 
 /// A texture with one sample a texel.
@@ -53,7 +58,15 @@ pub(crate) fn group<'a>(
 pub(crate) fn filled(gpu: &Gpu, label: &str, contents: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
     // Empty bindings are invalid; unread bytes stand for nothing.
     let contents = if contents.is_empty() { &[0u8; 64] } else { contents };
-    gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some(label), contents, usage })
+    let size = (contents.len() as u64).next_multiple_of(wgpu::COPY_BUFFER_ALIGNMENT);
+    let descriptor = wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: true };
+    let buffer = gpu.device.create_buffer(&descriptor);
+    // A device that is lost maps nothing, and says so to whoever asks for its errors.
+    if let Ok(mut mapped) = buffer.get_mapped_range_mut(..) {
+        mapped.slice(..contents.len()).copy_from_slice(contents);
+    }
+    buffer.unmap();
+    buffer
 }
 
 /// A buffer that is written later.

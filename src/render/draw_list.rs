@@ -230,9 +230,8 @@ pub(crate) fn bind_scene(
 ) {
     pass.set_bind_group(0, frame, &[]);
     pass.set_bind_group(1, character, &[]);
-    pass.set_vertex_buffer(0, scene.deform.deformed.slice(..));
-    pass.set_vertex_buffer(1, scene.static_vertices.slice(..));
-    pass.set_vertex_buffer(2, scene.instances.slice(..));
+    pass.set_vertex_buffer(0, scene.static_vertices.slice(..));
+    pass.set_vertex_buffer(1, scene.crowd.instances.slice(..));
     pass.set_index_buffer(scene.indices.slice(..), wgpu::IndexFormat::Uint32);
 }
 

@@ -12,9 +12,9 @@ pub(crate) fn frame_numbers() -> Filled {
     Filled::of("bind/frame", "Frame")
 }
 
-/// `Character` of `wgsl/bind/character.wgsl`.
-pub(crate) fn character_numbers() -> Filled {
-    Filled::of("bind/character", "Character")
+/// `Actor` of `wgsl/bind/actor.wgsl`.
+pub(crate) fn actor_numbers() -> Filled {
+    Filled::of("bind/actor", "Actor")
 }
 
 /// `PostNumbers` of `wgsl/pass/post.wgsl`.
@@ -43,7 +43,6 @@ pub(crate) fn put_view(gpu: &mut Block<'_>, view: &View) {
     gpu.put("near", camera.near);
     gpu.put("ambient_ground", lights.ambient.ground.0);
     gpu.put("coolness", lights.coolness());
-    gpu.put("instances", view.instances.len() as u32);
     gpu.put("px_per_m", view.px_per_m());
     gpu.put("punctual", punctual);
 }
@@ -60,8 +59,10 @@ fn punctual(light: &PunctualLight) -> [[f32; 4]; 3] {
     [light.position.extend(light.range), color.extend(spot_scale), direction.extend(spot_offset)].map(|r| r.to_array())
 }
 
-/// Where a character is, and how the light falls on her.
-pub(crate) struct CharacterState<'a> {
+/// Where an actor is, and how the light falls on it.
+pub(crate) struct ActorState<'a> {
+    /// Layer of its shadow map, where it has one.
+    pub shadow_layer: Option<u32>,
     /// Moves the head from its rest to the pose.
     pub head: Mat4,
     /// Middle of the head at rest, character space.
@@ -74,9 +75,9 @@ pub(crate) struct CharacterState<'a> {
     pub shadow: ShadowRows,
 }
 
-/// Writes the numbers of a character.
-pub(crate) fn put_character(gpu: &mut Block<'_>, of: &CharacterState<'_>) {
-    let CharacterState { head, bangs, through, shadow, .. } = of;
+/// Writes the numbers of an actor.
+pub(crate) fn put_actor(gpu: &mut Block<'_>, of: &ActorState<'_>) {
+    let ActorState { head, bangs, through, shadow, .. } = of;
     let rows = bangs.map_or([Vec4::ZERO; 3], |b| b.rows(*head, of.to_light));
     let [hardness, bias] = bangs.map_or([0.0; 2], BangsMap::test);
     let of_world = rows.map(|row| of.from_world.transpose() * row);
@@ -105,7 +106,7 @@ pub(crate) fn put_character(gpu: &mut Block<'_>, of: &CharacterState<'_>) {
     gpu.put("shadow_to_light", shadow.to_light.to_array());
     gpu.put("shadow_spread", shadow.spread);
     gpu.put("shadow_middle", shadow.middle.to_array());
-    gpu.put("shadow_layers", shadow.layers);
+    gpu.put("shadow_layer", of.shadow_layer.map_or(-1.0, |layer| layer as f32));
 }
 
 /// Writes the numbers of a finished picture.

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use glam::{Mat4, Vec3};
 
 use super::draw_list::{self, Draw, Pipelines};
-use super::frame::{CharacterState, put_character};
+use super::frame::{ActorState, actor_numbers, put_actor};
 use super::geometry::{Palette, Rig};
 use super::layout::Filled;
 use super::looks::{Looks, MaterialGroup};
@@ -15,9 +15,10 @@ use super::pass::bangs_shadow::BangsMap;
 use super::pass::deform::DeformBuffers;
 use super::pass::shadow::{ShadowMap, ShadowRows};
 use super::pass::{Picture, Sight, prepass};
+use super::uploads::Uploads;
 use super::variants::{Drawn, Request, Variant, Variants};
-use super::vertex::AffineRows;
-use super::{Renderer, View, bind};
+use super::vertex::{AffineRows, Instance};
+use super::{Output, Renderer, View, bind};
 use crate::material::Material;
 use crate::motion::Pose;
 use crate::scene::{EyesThrough, Post, Scene};
@@ -31,11 +32,10 @@ pub struct GpuScene {
     pub(crate) deform: DeformBuffers,
     pub(crate) static_vertices: wgpu::Buffer,
     pub(crate) indices: wgpu::Buffer,
-    pub(crate) instances: wgpu::Buffer,
-    pub(crate) instance_capacity: usize,
+    pub(crate) crowd: Crowd,
     pub(crate) instance_rows: Vec<AffineRows>,
-    /// How often the instances stand in their buffer.
-    pub(crate) instance_copies: usize,
+    /// Most shells of a coat.
+    pub(crate) shells: u32,
     pub(crate) character_group: wgpu::BindGroup,
     /// The same while the map of the bangs is drawn.
     pub(crate) character_group_without_map: wgpu::BindGroup,
@@ -45,8 +45,6 @@ pub struct GpuScene {
     /// Moves the head from its rest to the pose, and the hips.
     pub(super) head: Mat4,
     pub(super) hips: Mat4,
-    pub(super) character: wgpu::Buffer,
-    pub(super) character_numbers: Filled,
     pub(super) looks: Looks,
     pub(crate) draws: Vec<Draw>,
     /// What shows each draw in the picture.
@@ -65,6 +63,8 @@ pub struct GpuScene {
     pub(crate) post: Option<Post>,
     /// How often the pose, the places of characters and what is cut out of materials have become others.
     pub(super) revisions: Revisions,
+    /// The pose whose joints and weights are on the GPU.
+    pub(crate) sent: Made<u64, ()>,
     /// The pose that the deformed vertices are in.
     pub(crate) deformed: Made<u64, ()>,
     /// What the maps of shadows were drawn for.
@@ -78,6 +78,10 @@ pub struct GpuScene {
     pub(super) rig: Rig,
     pub(super) scratch: Scratch,
     pub(super) part_materials: Vec<usize>,
+    /// How many nodes its poses have.
+    pub(super) nodes: usize,
+    /// The device and the output of the renderer that has uploaded it.
+    pub(super) made_by: (Gpu, Output),
     pub(super) triangles: usize,
     pub(super) texture_bytes: u64,
 }
@@ -115,7 +119,7 @@ pub(super) struct Scratch {
     pub(super) world: Vec<Mat4>,
     pub(super) joints: Vec<AffineRows>,
     pub(super) weights: Vec<f32>,
-    /// What is on the GPU.
+    /// Those of the pose.
     pub(super) last_joints: Vec<AffineRows>,
     pub(super) last_weights: Vec<f32>,
 }
@@ -130,9 +134,22 @@ pub struct GpuMemory {
 }
 
 impl GpuScene {
-    /// Moves the scene to a pose: joint matrices, morph weights and material changes are written to the GPU; the
-    /// vertices follow in the next frame.
-    pub fn set_pose(&mut self, gpu: &Gpu, scene: &Scene, pose: &Pose) {
+    /// Moves the scene to a pose: joints, morph weights and material changes are those of frames that are encoded from now on.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for a scene that is not the uploaded one, a pose of another scene, a transform or weight that is
+    /// not finite, and a material that is not there.
+    pub fn set_pose(&mut self, scene: &Scene, pose: &Pose) -> Result<()> {
+        if scene.nodes.len() != self.nodes || scene.materials.len() != self.looks.sources.len() {
+            let (nodes, materials) = (scene.nodes.len(), scene.materials.len());
+            let message = format!(
+                "has {nodes} nodes and {materials} materials; the uploaded one has {} and {}",
+                self.nodes,
+                self.looks.sources.len()
+            );
+            return Err(Error::Argument { what: "scene".to_owned(), message });
+        }
+        pose.check(scene)?;
         let Scratch { world, joints, weights, .. } = &mut self.scratch;
         scene.world_from_nodes_into(&pose.locals, world);
         let matrix = |node: usize| world.get(node).copied().unwrap_or(Mat4::IDENTITY);
@@ -154,69 +171,67 @@ impl GpuScene {
         (self.head, self.hips) = (moved(self.rig.head), moved(self.rig.hips));
         let Scratch { joints, weights, last_joints, last_weights, .. } = &mut self.scratch;
         if joints != last_joints || weights != last_weights {
-            gpu.queue.write_buffer(&self.deform.joints, 0, bytemuck::cast_slice(joints));
-            if !weights.is_empty() {
-                gpu.queue.write_buffer(&self.deform.weights, 0, bytemuck::cast_slice(weights));
-            }
             last_joints.clone_from(joints);
             last_weights.clone_from(weights);
             self.revisions.pose += 1;
         }
-        if self.looks.pose(gpu, pose) {
+        if self.looks.pose(pose) {
             self.revisions.cuts += 1;
         }
+        Ok(())
     }
 
-    /// Gives each character of a larger crowd its shadow map.
-    pub(crate) fn fit_shadow(&mut self, renderer: &Renderer) {
-        let Some(shadow) = &mut self.shadow else { return };
-        if shadow.fit(renderer.gpu(), self.instance_rows.len()) {
+    /// Makes room for a larger crowd, and gives each character of it its shadow map.
+    pub(crate) fn fit(&mut self, renderer: &Renderer) {
+        let (gpu, count) = (renderer.gpu(), self.instance_rows.len());
+        let has_grown = self.crowd.fit(gpu, &self.instance_rows, self.shells);
+        let has_maps = self.shadow.as_mut().is_some_and(|s| s.fit(gpu, count));
+        if has_grown || has_maps {
             self.revisions.places += 1;
-            self.character_group = renderer.character_group(
-                &self.character,
-                &self.map_samplers,
-                self.bangs.as_ref(),
-                self.shadow.as_ref(),
-            );
+            let Self { crowd, deform, map_samplers, bangs, shadow, .. } = self;
+            self.character_group =
+                renderer.character_group(crowd, &deform.deformed, map_samplers, bangs.as_ref(), shadow.as_ref());
+            self.character_group_without_map =
+                renderer.character_group(crowd, &deform.deformed, map_samplers, None, None);
         }
     }
 
     /// Writes the places of the characters of a view.
-    pub(crate) fn place(&mut self, gpu: &Gpu, view: &View) {
+    pub(crate) fn place(&mut self, view: &View) {
         let rows = view.instances.iter().map(|m| AffineRows::from(*m));
-        if rows.clone().eq(self.instance_rows.iter().copied()) {
-            return;
+        if rows.clone().ne(self.instance_rows.iter().copied()) {
+            self.revisions.places += 1;
+            self.instance_rows.clear();
+            self.instance_rows.extend(rows);
         }
-        self.revisions.places += 1;
-        self.instance_rows.clear();
-        self.instance_rows.extend(rows);
-        // A copy for the surfaces, and one for each shell of a coat.
-        let copied = self.instance_rows.repeat(self.instance_copies);
-        if copied.len() > self.instance_capacity {
-            self.instance_capacity = copied.len().next_power_of_two();
-            self.instances = instance_buffer(gpu, self.instance_capacity);
-        }
-        gpu.queue.write_buffer(&self.instances, 0, bytemuck::cast_slice(&copied));
     }
 
-    /// Writes what of the character depends on the light. A crowd shares the shadow of its first one's bangs.
-    pub(crate) fn light(&mut self, gpu: &Gpu, view: &View) {
+    /// Sends what has changed: the pose, and what depends on places and light. A crowd shares the shadow of its first one's
+    /// bangs.
+    pub(crate) fn send(&mut self, uploads: &mut Uploads, encoder: &mut wgpu::CommandEncoder, view: &View) {
+        if self.sent.stale(self.revisions.pose).is_some() {
+            let Scratch { last_joints, last_weights, .. } = &self.scratch;
+            uploads.write(encoder, &self.deform.joints, 0, bytemuck::cast_slice(last_joints));
+            uploads.write(encoder, &self.deform.weights, 0, bytemuck::cast_slice(last_weights));
+        }
+        self.looks.send(uploads, encoder);
         let from_world = view.instances.first().copied().unwrap_or_default().inverse();
         let to_light = from_world.transform_vector3(view.lights.directional.to_light).normalize_or(Vec3::Z);
-        let state = CharacterState {
+        let Self { crowd, instance_rows, bangs, shadow, .. } = self;
+        let rows = shadow.as_ref().map_or_else(ShadowRows::default, |s| {
+            s.rows(self.hips.transform_point3(s.middle), view.lights.directional.to_light)
+        });
+        let states = (0..instance_rows.len()).map(|i| ActorState {
+            shadow_layer: shadow.as_ref().and_then(|s| s.layer(i)),
             head: self.head,
             head_middle: self.rig.head_middle,
-            bangs: self.bangs.as_ref(),
+            bangs: bangs.as_ref(),
             through: self.eyes_through,
             to_light,
             from_world,
-            shadow: self.shadow.as_ref().map_or_else(ShadowRows::default, |s| {
-                let middle = self.hips.transform_point3(s.middle);
-                s.rows(middle, view.lights.directional.to_light, self.instance_rows.len())
-            }),
-        };
-        let bytes = self.character_numbers.fill(|numbers| put_character(numbers, &state));
-        gpu.queue.write_buffer(&self.character, 0, bytes);
+            shadow: rows,
+        });
+        crowd.send(uploads, encoder, states);
     }
 
     /// What its deformed vertices are made from.
@@ -335,14 +350,81 @@ impl GpuScene {
             geometry: self.deform.bytes()
                 + self.static_vertices.size()
                 + self.indices.size()
-                + self.instances.size()
+                + self.crowd.bytes()
                 + self.looks.numbers.size(),
         }
     }
 }
 
-/// Buffer for the transforms of `count` instances.
-pub(crate) fn instance_buffer(gpu: &Gpu, count: usize) -> wgpu::Buffer {
-    let usage = wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST;
-    bind::buffer(gpu, "instances", (count * size_of::<AffineRows>()) as u64, usage)
+/// Actors as shaders read them, and what stands for them in draws.
+#[derive(Debug)]
+pub(crate) struct Crowd {
+    numbers: Filled,
+    bytes: Vec<u8>,
+    pub(super) actors: wgpu::Buffer,
+    pub(super) instances: wgpu::Buffer,
+    /// How many there is room for.
+    capacity: usize,
+    /// What is in the buffer of instances.
+    listed: Vec<Instance>,
+    list: Vec<Instance>,
+}
+
+impl Crowd {
+    pub fn new(gpu: &Gpu) -> Self {
+        let empty = || bind::buffer(gpu, "actors", 64, wgpu::BufferUsages::STORAGE);
+        Self {
+            numbers: actor_numbers(),
+            bytes: Vec::new(),
+            actors: empty(),
+            instances: empty(),
+            capacity: 0,
+            listed: Vec::new(),
+            list: Vec::new(),
+        }
+    }
+
+    /// Lists actors at these places with coats of so many shells; whether there are other buffers now.
+    pub fn fit(&mut self, gpu: &Gpu, places: &[AffineRows], shells: u32) -> bool {
+        let has_grown = places.len() > self.capacity;
+        if has_grown {
+            self.capacity = places.len().next_power_of_two();
+            let buffer = |label, size, usage| bind::buffer(gpu, label, size, usage | wgpu::BufferUsages::COPY_DST);
+            let entries = self.capacity as u64 * u64::from(1 + shells);
+            let size = size_of::<Instance>() as u64;
+            self.actors = buffer("actors", self.capacity as u64 * self.numbers.size(), wgpu::BufferUsages::STORAGE);
+            self.instances = buffer("instances", entries * size, wgpu::BufferUsages::VERTEX);
+            self.listed.clear();
+        }
+        self.list.clear();
+        // The surfaces, then each shell of their coats.
+        for extra in 0..=shells {
+            let of_shell = (0..).zip(places);
+            self.list.extend(of_shell.map(|(actor, world)| Instance { world: *world, actor, first_vertex: 0, extra }));
+        }
+        has_grown
+    }
+
+    /// Sends the list, and what the shaders read of each.
+    pub fn send<'a>(
+        &mut self,
+        uploads: &mut Uploads,
+        encoder: &mut wgpu::CommandEncoder,
+        states: impl Iterator<Item = ActorState<'a>>,
+    ) {
+        if self.list != self.listed {
+            uploads.write(encoder, &self.instances, 0, bytemuck::cast_slice(&self.list));
+            self.listed.clone_from(&self.list);
+        }
+        self.bytes.clear();
+        for state in states {
+            self.bytes.extend_from_slice(self.numbers.fill(|numbers| put_actor(numbers, &state)));
+        }
+        uploads.write(encoder, &self.actors, 0, &self.bytes);
+    }
+
+    /// Bytes on the GPU.
+    pub fn bytes(&self) -> u64 {
+        self.actors.size() + self.instances.size()
+    }
 }

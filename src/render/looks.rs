@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::material::{self, Composition, Source};
 use super::shaders::{BindingKind, Places};
 use super::textures::TextureSet;
+use super::uploads::Uploads;
 use super::variants::BoundLayout;
 use crate::material::{Material, Surroundings};
 use crate::motion::{Driven, Pose};
@@ -37,6 +38,8 @@ pub(crate) struct Looks {
     pub(super) self_shadow: bool,
     /// Materials that an expression has changed.
     pub(super) posed: Vec<usize>,
+    /// Bytes of materials that a pose has changed since the last frame.
+    pub(super) waiting: Vec<(usize, Vec<u8>)>,
 }
 
 #[derive(Debug)]
@@ -55,25 +58,30 @@ pub(crate) struct MaterialGroup {
 }
 
 impl Looks {
-    /// Writes the bytes of a material.
-    pub fn write(&self, gpu: &Gpu, index: usize, material: &Material) -> Result<()> {
-        let bytes = material::bytes(&self.places, &self.surroundings(index, material))?;
-        gpu.queue.write_buffer(&self.numbers, index as u64 * self.stride, &bytes);
-        Ok(())
+    /// Bytes of a material.
+    pub fn bytes(&self, index: usize, material: &Material) -> Result<Vec<u8>> {
+        material::bytes(&self.places, &self.surroundings(index, material))
     }
 
-    /// Writes the materials that a pose changes, and those that it changes no more; whether there are any.
-    pub fn pose(&mut self, gpu: &Gpu, pose: &Pose) -> bool {
+    /// Takes the materials that a pose changes, and those that it changes no more; whether there are any.
+    pub fn pose(&mut self, pose: &Pose) -> bool {
         let changed: Vec<usize> = self.posed.iter().chain(pose.materials.keys()).copied().collect();
         for &index in &changed {
             let Some(source) = self.sources.get(index) else { continue };
             let material = pose.materials.get(&index).unwrap_or(source).clone().clamped();
             // The upload has shown that its bytes can be written.
-            let _ = self.write(gpu, index, &material);
+            self.waiting.extend(self.bytes(index, &material).ok().map(|bytes| (index, bytes)));
         }
         self.posed.clear();
         self.posed.extend(pose.materials.keys());
         !changed.is_empty()
+    }
+
+    /// Sends the bytes of materials that a pose has changed.
+    pub fn send(&mut self, uploads: &mut Uploads, encoder: &mut wgpu::CommandEncoder) {
+        for (index, bytes) in self.waiting.drain(..) {
+            uploads.write(encoder, &self.numbers, index as u64 * self.stride, &bytes);
+        }
     }
 
     pub fn surroundings<'a>(&'a self, index: usize, material: &'a Material) -> Surroundings<'a> {

@@ -18,6 +18,7 @@ pub mod shaders;
 mod targets;
 mod textures;
 mod upload;
+mod uploads;
 mod uv_metric;
 mod variants;
 mod vertex;
@@ -51,6 +52,7 @@ use pass::shadow::{self, ShadowInputs};
 use pass::{HDR_FORMAT, Picture, Sight, eyes_through, fluff, opaque, outline, transparent};
 use shaders::Shaders;
 use targets::{ColorTargets, PrepassTargets};
+use uploads::Uploads;
 use variants::Variants;
 use wgpu::BindingResource;
 
@@ -59,8 +61,8 @@ use wgpu::BindingResource;
 pub struct Output {
     /// Format of the target. Default: 8-bit sRGB, in which blending and the resolve of samples happen in linear light.
     ///
-    /// A format without `Srgb` in its name is encoded by the shaders; blending and resolve then happen on encoded
-    /// values, as in WebGL renderers.
+    /// A format of 8 bits without `Srgb` in its name is encoded by the shaders; blending and resolve then happen on encoded
+    /// values, as in WebGL renderers. Floats stay linear.
     pub format: wgpu::TextureFormat,
     /// Samples a pixel: 1 or 4. Default: 4.
     pub samples: u32,
@@ -83,6 +85,7 @@ pub struct Renderer {
     bangs_near: Option<BangsNearPass>,
     bloom: Option<BloomPass>,
     post: Option<PostPass>,
+    uploads: Uploads,
     frame_numbers: Filled,
     frame_uniform: wgpu::Buffer,
     frame_group: wgpu::BindGroup,
@@ -139,15 +142,17 @@ impl Renderer {
     /// Makes a renderer for targets of a given format and number of samples.
     ///
     /// # Errors
-    /// [`Error::Argument`] for a number of samples other than 1 and 4; [`Error::Gpu`] where the adapter refuses a resource.
+    /// [`Error::Argument`] for a number of samples other than 1 and 4; [`Error::Gpu`] where the device has smaller limits than
+    /// [`Gpu::required_limits`], or the adapter refuses a resource.
     pub fn with_output(gpu: &Gpu, output: Output) -> Result<Self> {
+        gpu.check_limits()?;
         if output.samples != 1 && output.samples != 4 {
             let message = format!("is {}; expected 1 or 4", output.samples);
             return Err(Error::Argument { what: "samples".to_owned(), message });
         }
         gpu.scoped(|| {
             let frame_numbers = frame_numbers();
-            let layouts = Layouts::new(gpu, frame_numbers.size(), frame::character_numbers().size());
+            let layouts = Layouts::new(gpu, frame_numbers.size());
             let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
             let frame_uniform = bind::buffer(gpu, "frame", frame_numbers.size(), usage);
             let frame_group = frame_group(gpu, &layouts, &frame_uniform, &PrepassTargets::new(gpu, [1, 1], false));
@@ -160,6 +165,7 @@ impl Renderer {
                 bangs_near: None,
                 bloom: None,
                 post: None,
+                uploads: Uploads::new(gpu),
                 frame_numbers,
                 frame_uniform,
                 frame_group,
@@ -187,12 +193,15 @@ impl Renderer {
         FloorPass::new(&self.variants, &Picture::new(self.gpu(), self.output, false, Sight::default()), scene)
     }
 
-    /// Renders a view and reads it back: sRGB, straight alpha.
+    /// Renders a view and reads it back: sRGB, straight alpha, whatever the [`Output`]'s format.
     ///
     /// # Errors
-    /// [`Error::Argument`] for a view out of its domain; [`Error::Gpu`] where the adapter fails or does not answer.
+    /// [`Error::Argument`] for a view out of its domain, a scene of another device or output, and for a format that is neither
+    /// RGBA nor BGRA with 8 bits nor floats; [`Error::Gpu`] where the adapter fails or does not answer.
     pub fn render(&mut self, scene: &mut GpuScene, view: &View) -> Result<Image> {
         view.check()?;
+        self.owns(scene)?;
+        readback::check(self.output.format)?;
         let gpu = self.gpu().clone();
         gpu.scoped(|| {
             let shown = match view.channel {
@@ -210,15 +219,16 @@ impl Renderer {
             gpu.queue.submit([encoder.finish()]);
             let texels = readback::read_texels(&gpu, &texture, FRAME_TIMEOUT)?;
             self.picture_target = Some(texture);
-            Ok(readback::picture(view.size, texels))
+            Ok(readback::picture(view.size, self.output.format, &texels))
         })?
     }
 
     /// Encodes a view into `target`, which has the format of this renderer's [`Output`], the size of the view, and one
-    /// sample a pixel. The application submits. The view's channel does not count.
+    /// sample a pixel. The picture has premultiplied alpha. The application submits. The view's channel does not count.
     ///
     /// # Errors
-    /// [`Error::Argument`] for a view out of its domain.
+    /// [`Error::Argument`] for a view out of its domain, a target of another size, format or number of samples than the
+    /// view and the [`Output`] have, and a scene of another device or output.
     pub fn encode_frame(
         &mut self,
         encoder: &mut wgpu::CommandEncoder,
@@ -227,7 +237,49 @@ impl Renderer {
         target: &wgpu::TextureView,
     ) -> Result<()> {
         view.check()?;
+        self.owns(scene)?;
+        self.fits(view, target.texture())?;
         self.encode(encoder, scene, view, target, Shown::Picture, &Clock::off())
+    }
+
+    /// Refuses a scene of another device or output.
+    fn owns(&self, scene: &GpuScene) -> Result<()> {
+        let (gpu, output) = &scene.made_by;
+        let fault = |message: &str| {
+            Err(Error::Argument {
+                what: "scene".to_owned(),
+                message: format!("{message}; please upload it by this one"),
+            })
+        };
+        if !gpu.is(self.gpu()) {
+            return fault("was uploaded by a renderer of another device");
+        }
+        if *output != self.output {
+            return fault("was uploaded by a renderer of another output");
+        }
+        Ok(())
+    }
+
+    /// Refuses a target that the pipelines do not draw into.
+    fn fits(&self, view: &View, target: &wgpu::Texture) -> Result<()> {
+        let fault = |what: &str, found: String, expected: String| {
+            let message = format!("has {found}; expected {expected}");
+            Err(Error::Argument { what: format!("target: {what}"), message })
+        };
+        let (found, wanted) = ([target.width(), target.height()], view.size);
+        if found != wanted {
+            return fault("size", format!("{} x {}", found[0], found[1]), format!("{} x {}", wanted[0], wanted[1]));
+        }
+        if target.format() != self.output.format {
+            return fault("format", format!("{:?}", target.format()), format!("{:?}", self.output.format));
+        }
+        if target.sample_count() != 1 {
+            return fault("samples", target.sample_count().to_string(), "1: the frame resolves its own".to_owned());
+        }
+        if !target.usage().contains(wgpu::TextureUsages::RENDER_ATTACHMENT) {
+            return fault("usage", format!("{:?}", target.usage()), "RENDER_ATTACHMENT".to_owned());
+        }
+        Ok(())
     }
 
     /// The frame. `clock` times its passes.
@@ -241,7 +293,7 @@ impl Renderer {
         clock: &Clock,
     ) -> Result<()> {
         let post = scene.post.filter(|_| matches!(shown, Shown::Picture));
-        self.begin_frame(scene, view, post, shown)?;
+        self.begin_frame(encoder, scene, view, post, shown)?;
         // Skinned and morphed vertices; only where the pose has changed.
         self.encode_deform(encoder, scene, clock);
         if !matches!(shown, Shown::Floor(_)) {
@@ -283,12 +335,20 @@ impl Renderer {
 
     /// Writes what changes with the view: numbers, places, order of transparent draws; makes targets of a new size, and what
     /// shows a channel.
-    fn begin_frame(&mut self, scene: &mut GpuScene, view: &View, post: Option<Post>, shown: Shown<'_>) -> Result<()> {
+    fn begin_frame(
+        &mut self,
+        encoder: &mut wgpu::CommandEncoder,
+        scene: &mut GpuScene,
+        view: &View,
+        post: Option<Post>,
+        shown: Shown<'_>,
+    ) -> Result<()> {
         let gpu = self.gpu().clone();
-        gpu.queue.write_buffer(&self.frame_uniform, 0, self.frame_numbers.fill(|numbers| put_view(numbers, view)));
-        scene.place(&gpu, view);
-        scene.fit_shadow(self);
-        scene.light(&gpu, view);
+        let numbers = self.frame_numbers.fill(|numbers| put_view(numbers, view));
+        self.uploads.write(encoder, &self.frame_uniform, 0, numbers);
+        scene.place(view);
+        scene.fit(self);
+        scene.send(&mut self.uploads, encoder, view);
         // Draws of a crowd share one order: that of its first character.
         let eye = view.instances.first().map_or(view.camera.eye, |m| m.inverse().transform_point3(view.camera.eye));
         scene.sort_transparent(eye);
@@ -357,10 +417,10 @@ impl Renderer {
         post: Option<Post>,
         clock: &Clock,
     ) {
-        let Self { variants, post: pass, post_targets, .. } = self;
+        let Self { uploads, post: pass, post_targets, .. } = self;
         if let (Some(post), Some(targets), Some(pass)) = (post, post_targets, pass) {
             let inputs = PostInputs { post, background: view.background, group: &targets.group, target };
-            pass.encode(&variants.gpu, encoder, &inputs, clock.render(Timed::Post));
+            pass.encode(uploads, encoder, &inputs, clock.render(Timed::Post));
         }
     }
 
@@ -451,10 +511,10 @@ impl Renderer {
 
     /// Renders one of the prepass's channels as a picture.
     fn render_geometry(&mut self, scene: &mut GpuScene, view: &View) -> Result<Image> {
-        self.begin_frame(scene, view, None, Shown::Picture)?;
         let gpu = self.gpu().clone();
         let targets = PrepassTargets::new(&gpu, view.size, true);
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("channel") });
+        self.begin_frame(&mut encoder, scene, view, None, Shown::Picture)?;
         self.encode_deform(&mut encoder, scene, &Clock::off());
         // Depth, normal and part id.
         scene.make_geometry(&self.variants)?;
@@ -488,7 +548,7 @@ fn frame_group(gpu: &Gpu, layouts: &Layouts, uniform: &wgpu::Buffer, read: &Prep
 }
 
 impl Layouts {
-    fn new(gpu: &Gpu, frame_bytes: u64, character_bytes: u64) -> Self {
+    fn new(gpu: &Gpu, frame_bytes: u64) -> Self {
         use wgpu::{BindingType::Sampler, SamplerBindingType, TextureSampleType as T, TextureViewDimension as D};
         let both = wgpu::ShaderStages::VERTEX_FRAGMENT;
         let read = |ty| (wgpu::ShaderStages::FRAGMENT, ty);
@@ -499,7 +559,8 @@ impl Layouts {
         ];
         let numbers = bind::texture(T::Float { filterable: false }, D::D2Array);
         let character = [
-            (both, bind::uniform(Some(character_bytes))),
+            (both, bind::storage()),
+            (wgpu::ShaderStages::VERTEX, bind::storage()),
             read(numbers),
             read(numbers),
             read(Sampler(SamplerBindingType::NonFiltering)),

@@ -51,17 +51,53 @@ pub(crate) fn read_texels(gpu: &Gpu, texture: &wgpu::Texture, timeout: Duration)
     Ok(texels)
 }
 
-/// Makes a picture of sRGB-encoded premultiplied texels: straight alpha, as PNG wants it.
-pub(crate) fn picture(size: [u32; 2], mut pixels: Vec<u8>) -> Image {
+/// Refuses a format that no picture is made of.
+pub(crate) fn check(format: wgpu::TextureFormat) -> Result<()> {
+    use wgpu::TextureFormat as F;
+    match format {
+        F::Rgba8Unorm | F::Rgba8UnormSrgb | F::Bgra8Unorm | F::Bgra8UnormSrgb | F::Rgba16Float | F::Rgba32Float => {
+            Ok(())
+        }
+        other => Err(Error::Argument {
+            what: "output format".to_owned(),
+            message: format!(
+                "is {other:?}, of which no picture is read back; expected Rgba8Unorm, Bgra8Unorm, Rgba16Float or Rgba32Float"
+            ),
+        }),
+    }
+}
+
+/// Makes a picture of premultiplied texels of such a format, eight bits sRGB-encoded and floats linear: straight alpha, as
+/// PNG wants it.
+pub(crate) fn picture(size: [u32; 2], format: wgpu::TextureFormat, texels: &[u8]) -> Image {
+    use wgpu::TextureFormat as F;
+    let float = |t: &[u8], i: usize| match format {
+        F::Rgba16Float => half::f16::from_le_bytes([t[2 * i], t[2 * i + 1]]).to_f32(),
+        _ => f32::from_le_bytes(std::array::from_fn(|b| t[4 * i + b])),
+    };
+    let code = |linear: f32| (srgb_from_linear(linear) * 255.0).round() as u8;
+    let mut pixels: Vec<u8> = match format {
+        F::Rgba16Float | F::Rgba32Float => texels
+            .chunks_exact(if format == F::Rgba16Float { 8 } else { 16 })
+            .flat_map(|t| {
+                let alpha = float(t, 3).clamp(0.0, 1.0);
+                let straight = |i: usize| code(float(t, i) / alpha.max(1e-6));
+                [straight(0), straight(1), straight(2), (alpha * 255.0).round() as u8]
+            })
+            .collect(),
+        _ => texels.to_vec(),
+    };
     for pixel in pixels.chunks_exact_mut(4) {
+        if matches!(format, F::Bgra8Unorm | F::Bgra8UnormSrgb) {
+            pixel.swap(0, 2);
+        }
         let alpha = pixel[3];
         if alpha == 0 {
             pixel.fill(0);
-        } else if alpha < 255 {
+        } else if alpha < 255 && !matches!(format, F::Rgba16Float | F::Rgba32Float) {
             let alpha = f32::from(alpha) / 255.0;
             for c in &mut pixel[..3] {
-                let straight = linear_from_srgb(f32::from(*c) / 255.0) / alpha;
-                *c = (srgb_from_linear(straight) * 255.0).round() as u8;
+                *c = code(linear_from_srgb(f32::from(*c) / 255.0) / alpha);
             }
         }
     }

@@ -75,7 +75,7 @@ const fn stage(name: &'static str, takes: &'static str, gives: &'static str, fol
 /// All stages; the first ones are of vertices.
 pub(crate) const STAGES: &[Stage] = &[
     stage("place", "clip: vec4f", "vec4f", Fold::Chain),
-    stage("vary", "v: VertexInput, given: Varying", "Varying", Fold::Chain),
+    stage("vary", "v: Vertex, given: Varying", "Varying", Fold::Chain),
     stage("vertex_uv", "uv: vec4f", "vec4f", Fold::Chain),
     stage("line", "width: f32", "f32", Fold::Chain),
     stage("uv", "uv: vec4f", "vec4f", Fold::Chain),
@@ -284,7 +284,7 @@ impl Shaders {
         let _ = writeln!(page, "// Made for {}.", names.join(", "));
         page.push_str(
             "import package::bind::surface::{Border, Shaded, Surface};\nimport package::bind::varying::Varying;\n\
-             import package::bind::vertex::VertexInput;\nimport package::model::unlit::unlit_model;\n",
+             import package::bind::vertex::Vertex;\nimport package::model::unlit::unlit_model;\n",
         );
         for about in &recipe.sections {
             let key = about.key;

@@ -58,13 +58,14 @@ impl TextureSet {
         for batch in wanted.chunks(rayon::current_num_threads().max(1)) {
             let images: Vec<(usize, Cow<'_, Image>, &BTreeSet<Encoding>)> =
                 batch.iter().filter_map(|(index, encodings)| Some((*index, take(*index)?, encodings))).collect();
+            images.iter().try_for_each(|(_, image, _)| check(image))?;
             let chains: Vec<(usize, &Image, Encoding, Vec<Level>)> = images
                 .par_iter()
                 .flat_map_iter(|(index, image, encodings)| encodings.iter().map(|e| (*index, &**image, *e)))
                 .map(|(index, image, encoding)| (index, image, encoding, mip_chain(image, encoding, &tables)))
                 .collect();
             for (index, image, encoding, mips) in &chains {
-                views.insert((*index, *encoding), upload(gpu, image, mips, *encoding)?);
+                views.insert((*index, *encoding), upload(gpu, image, mips, *encoding));
                 bytes += image.pixels.len() as u64 + mips.iter().map(|l| l.pixels.len() as u64).sum::<u64>();
             }
             // Gives the staging memory of this batch back before the next one asks for more.
@@ -76,7 +77,7 @@ impl TextureSet {
         for texture in textures {
             samplers.entry(texture.sampler).or_insert_with(|| sampler(gpu, texture.sampler));
         }
-        let white = upload(gpu, &white, &[], Encoding::Srgb)?;
+        let white = upload(gpu, &white, &[], Encoding::Srgb);
         let clamp = Sampler { wrap_u: Wrap::Clamp, wrap_v: Wrap::Clamp, ..Sampler::default() };
         Ok(Self {
             views,
@@ -252,17 +253,12 @@ fn average(values: [u8; 4]) -> u8 {
 
 /// A texture of one image alone.
 pub(crate) fn single(gpu: &Gpu, image: &Image, encoding: Encoding) -> Result<wgpu::TextureView> {
-    // A broken image has no mips to make.
-    let whole = image.pixels.len() as u64 == u64::from(image.width) * u64::from(image.height) * 4;
-    let mips = if whole {
-        mip_chain(image, encoding, &Tables::new())
-    } else {
-        Vec::new()
-    };
-    upload(gpu, image, &mips, encoding)
+    check(image)?;
+    Ok(upload(gpu, image, &mip_chain(image, encoding, &Tables::new()), encoding))
 }
 
-fn upload(gpu: &Gpu, image: &Image, mips: &[Level], encoding: Encoding) -> Result<wgpu::TextureView> {
+/// Refuses an image whose bytes do not fit its size.
+fn check(image: &Image) -> Result<()> {
     let side = image.width.max(image.height);
     if side > MAX_TEXTURE_SIDE || image.pixels.len() as u64 != u64::from(image.width) * u64::from(image.height) * 4 {
         return Err(Error::Argument {
@@ -275,6 +271,10 @@ fn upload(gpu: &Gpu, image: &Image, mips: &[Level], encoding: Encoding) -> Resul
             ),
         });
     }
+    Ok(())
+}
+
+fn upload(gpu: &Gpu, image: &Image, mips: &[Level], encoding: Encoding) -> wgpu::TextureView {
     let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
         label: Some(&image.name),
         size: wgpu::Extent3d { width: image.width, height: image.height, depth_or_array_layers: 1 },
@@ -303,7 +303,7 @@ fn upload(gpu: &Gpu, image: &Image, mips: &[Level], encoding: Encoding) -> Resul
             wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
         );
     }
-    Ok(texture.create_view(&wgpu::TextureViewDescriptor::default()))
+    texture.create_view(&wgpu::TextureViewDescriptor::default())
 }
 
 fn sampler(gpu: &Gpu, s: Sampler) -> wgpu::Sampler {

@@ -7,9 +7,8 @@ use std::sync::Arc;
 use glam::Mat4;
 
 use super::draw_list::{self, Pipelines, casts_on_face, through_order};
-use super::frame::character_numbers;
 use super::geometry::Geometry;
-use super::gpu_scene::{GpuScene, MapSamplers, Revisions, Scratch, instance_buffer};
+use super::gpu_scene::{Crowd, GpuScene, MapSamplers, Revisions, Scratch};
 use super::looks::{Looks, bound_textures, stride};
 use super::made::Made;
 use super::material::{self, Composition, Source};
@@ -62,6 +61,7 @@ impl Renderer {
 
     /// What the materials of a scene are made of.
     fn looks_of(&self, scene: &Scene) -> Result<Described> {
+        scene.check()?;
         let faults = [
             ("bangs", scene.bangs.and_then(|mut s| out_of_range(&mut s))),
             ("self_shadow", scene.self_shadow.and_then(|mut s| out_of_range(&mut s))),
@@ -116,37 +116,36 @@ impl Renderer {
             driven,
             self_shadow: scene.self_shadow.is_some(),
             posed: Vec::new(),
+            waiting: Vec::new(),
         };
         for (index, material) in looks.sources.iter().enumerate() {
-            looks.write(&gpu, index, material)?;
+            gpu.queue.write_buffer(&looks.numbers, index as u64 * stride, &looks.bytes(index, material)?);
         }
 
         let indices = buffer("indices", bytemuck::cast_slice(&geometry.indices), U::INDEX);
         let static_vertices = buffer("static vertices", bytemuck::cast_slice(&geometry.static_vertices), U::VERTEX);
-        let character_numbers = character_numbers();
-        let character = buffer("character", &vec![0; character_numbers.size() as usize], U::UNIFORM | U::COPY_DST);
+        let crowd = Crowd::new(&gpu);
         let bangs = self.bangs_map(scene, &geometry)?;
         let shadow = self.shadow_map(scene, &geometry);
         let map_samplers = MapSamplers {
             gather: device.create_sampler(&wgpu::SamplerDescriptor { label: Some("bangs"), ..Default::default() }),
             compare: shadow::sampler(&gpu),
         };
-        let character_group_without_map = self.character_group(&character, &map_samplers, None, None);
-        let character_group = self.character_group(&character, &map_samplers, bangs.as_ref(), shadow.as_ref());
         let deform = self.deform.buffers(&gpu, &geometry.deform_input());
+        let character_group_without_map = self.character_group(&crowd, &deform.deformed, &map_samplers, None, None);
+        let character_group = character_group_without_map.clone();
         let draws = draw_list::draws(scene, &geometry.parts, color_depth_format(&gpu).has_stencil_aspect());
         let picture = Picture::new(&gpu, self.output, scene.post.is_some(), Sight::default());
         let requests = draw_list::requests(scene, &draws, &looks.compositions, &picture);
         self.variants.get_all(requests.iter().flat_map(Pipelines::iter))?;
-        let shells = scene.materials.iter().filter_map(|m| m.fluff).map(|f| f.shells.min(MAX_SHELLS) as usize).max();
+        let shells = scene.materials.iter().filter_map(|m| m.fluff).map(|f| f.shells.min(MAX_SHELLS)).max();
         let mut uploaded = GpuScene {
             deform,
             static_vertices,
             indices,
-            instances: instance_buffer(&gpu, 1),
-            instance_capacity: 1,
+            crowd,
             instance_rows: Vec::new(),
-            instance_copies: 1 + shells.unwrap_or(0),
+            shells: shells.unwrap_or(0),
             character_group,
             character_group_without_map,
             bangs,
@@ -154,8 +153,6 @@ impl Renderer {
             map_samplers,
             head: Mat4::IDENTITY,
             hips: Mat4::IDENTITY,
-            character,
-            character_numbers,
             looks,
             transparent_order: Vec::with_capacity(draws.len()),
             through_order: through_order(&draws),
@@ -167,6 +164,7 @@ impl Renderer {
             eyes_through: scene.eyes_through,
             post: scene.post,
             revisions: Revisions::default(),
+            sent: Made::not_yet(()),
             deformed: Made::not_yet(()),
             maps: Made::not_yet(()),
             has_inner_lines: false,
@@ -175,6 +173,8 @@ impl Renderer {
             rig: geometry.rig,
             scratch: Scratch::default(),
             part_materials: geometry.part_materials,
+            nodes: scene.nodes.len(),
+            made_by: (gpu.clone(), self.output),
             triangles: geometry.indices.len() / 3,
             texture_bytes: textures.bytes,
         };
@@ -184,7 +184,7 @@ impl Renderer {
         let has_inner_lines = drawn().any(|c| c.needs("prepass_surfaces"));
         let cuts_move = drawn().any(|c| c.takes_part("uv"));
         (uploaded.has_inner_lines, uploaded.cuts_move) = (has_inner_lines, cuts_move);
-        uploaded.set_pose(&gpu, scene, &Pose::rest(scene));
+        uploaded.set_pose(scene, &Pose::rest(scene))?;
         Ok(uploaded)
     }
 
@@ -219,7 +219,8 @@ impl Renderer {
     /// Group 1; where a map is missing, an empty one stands.
     pub(super) fn character_group(
         &self,
-        character: &wgpu::Buffer,
+        crowd: &Crowd,
+        deformed: &wgpu::Buffer,
         samplers: &MapSamplers,
         bangs: Option<&BangsMap>,
         shadow: Option<&ShadowMap>,
@@ -229,7 +230,8 @@ impl Renderer {
         let no_shadow = shadow::map_texture(self.gpu(), 1, 1);
         let view = |view| wgpu::BindingResource::TextureView(view);
         let resources = [
-            character.as_entire_binding(),
+            crowd.actors.as_entire_binding(),
+            deformed.as_entire_binding(),
             view(map),
             view(near),
             wgpu::BindingResource::Sampler(&samplers.gather),

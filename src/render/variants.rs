@@ -7,6 +7,7 @@ use rayon::prelude::*;
 
 use super::bind;
 use super::shaders::{Binding, BindingKind, Linked, Recipe, Shaders};
+use super::vertex::{Instance, StaticVertex};
 use crate::{Gpu, Result};
 
 /// Fixed state of a pipeline.
@@ -117,7 +118,7 @@ impl Variants {
                     module: &module,
                     entry_point: Some("vs_main"),
                     compilation_options: wgpu::PipelineCompilationOptions::default(),
-                    buffers: &vertex_buffers(),
+                    buffers: &VERTEX_BUFFERS,
                 },
                 primitive: wgpu::PrimitiveState { cull_mode: state.cull, ..Default::default() },
                 depth_stencil: state.depth.clone(),
@@ -195,17 +196,17 @@ fn layout_entry(binding: &Binding) -> wgpu::BindGroupLayoutEntry {
     }
 }
 
-/// Vertex streams, as `wgsl/bind/vertex.wgsl` reads them.
-fn vertex_buffers() -> [Option<wgpu::VertexBufferLayout<'static>>; 3] {
-    const DEFORMED: &[wgpu::VertexAttribute] = &wgpu::vertex_attr_array![0 => Float32x3, 1 => Uint32x3];
-    const STATIC: &[wgpu::VertexAttribute] = &wgpu::vertex_attr_array![2 => Float32x4, 3 => Unorm8x4, 4 => Uint32];
-    const INSTANCE: &[wgpu::VertexAttribute] =
-        &wgpu::vertex_attr_array![5 => Float32x4, 6 => Float32x4, 7 => Float32x4];
-    let layout =
-        |array_stride, step_mode, attributes| Some(wgpu::VertexBufferLayout { array_stride, step_mode, attributes });
-    [
-        layout(24, wgpu::VertexStepMode::Vertex, DEFORMED),
-        layout(24, wgpu::VertexStepMode::Vertex, STATIC),
-        layout(48, wgpu::VertexStepMode::Instance, INSTANCE),
-    ]
-}
+/// Vertex streams, as `wgsl/bind/vertex.wgsl` reads them: what does not move, and what an instance stands for. Deformed
+/// vertices are pulled from storage, so that one draw serves actors in poses of their own.
+const VERTEX_BUFFERS: [Option<wgpu::VertexBufferLayout<'static>>; 2] = [
+    Some(wgpu::VertexBufferLayout {
+        array_stride: size_of::<StaticVertex>() as u64,
+        step_mode: wgpu::VertexStepMode::Vertex,
+        attributes: &wgpu::vertex_attr_array![0 => Float32x4, 1 => Unorm8x4, 2 => Uint32],
+    }),
+    Some(wgpu::VertexBufferLayout {
+        array_stride: size_of::<Instance>() as u64,
+        step_mode: wgpu::VertexStepMode::Instance,
+        attributes: &wgpu::vertex_attr_array![3 => Float32x4, 4 => Float32x4, 5 => Float32x4, 6 => Uint32x3],
+    }),
+];

@@ -4,7 +4,7 @@
 use bytemuck::{Pod, Zeroable};
 use glam::{Mat4, Vec3};
 
-/// `DeformVertex` of `wgsl/pass/deform.wgsl`, and the first vertex stream of every draw.
+/// `DeformVertex` of `wgsl/bind/actor.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
 pub struct DeformVertex {
@@ -34,7 +34,7 @@ pub struct MorphEntry {
     pub normal: [f32; 3],
 }
 
-/// Rows of an affine matrix: `Joint` of `wgsl/pass/deform.wgsl`, and the instance stream of every draw.
+/// Rows of an affine matrix: `Joint` of `wgsl/pass/deform.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct AffineRows {
@@ -49,13 +49,26 @@ impl From<Mat4> for AffineRows {
     }
 }
 
-/// Second vertex stream of every draw: what does not move.
+/// First stream of every draw: what does not move.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
 pub struct StaticVertex {
     pub uv: [f32; 4],
     pub color: [u8; 4],
     pub part: u32,
+}
+
+/// Second stream of every draw: what an instance stands for, as `wgsl/bind/vertex.wgsl` reads it.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct Instance {
+    /// `world_from_character`.
+    pub world: AffineRows,
+    pub actor: u32,
+    /// Its first vertex among those of all actors.
+    pub first_vertex: u32,
+    /// By the pass: the shell of a coat, or the actor whose map is drawn.
+    pub extra: u32,
 }
 
 /// Octahedral snorm16 pair of a unit vector; the CPU side of `wgsl/lib/normal.wgsl`.
@@ -91,8 +104,9 @@ mod tests {
 
     #[test]
     fn structs_match_their_wgsl() {
+        let text = [file("bind/actor"), file("pass/deform")].concat();
         let check = |name: &str, size: usize, members: &[(&str, usize)]| {
-            let layout = Layout::of(file("pass/deform"), name);
+            let layout = Layout::of(&text, name);
             assert_eq!(layout.size, size, "size of {name}");
             for (member, offset) in members {
                 assert_eq!(layout.offset(member), Some(*offset), "{name}.{member}");

@@ -2,7 +2,7 @@
 
 use glam::{Mat4, Quat, Vec3};
 
-use super::{MAX_TEXTURE_SIDE, Output, vertex::unpack_unit};
+use super::{MAX_TEXTURE_SIDE, Output, pass::encodes_srgb, vertex::unpack_unit};
 use crate::{
     Error, Result,
     color::Srgb,
@@ -57,10 +57,10 @@ pub enum Background {
 impl Background {
     pub(crate) fn clear_color(self, output: Output) -> wgpu::Color {
         let Self::Color(srgb) = self else { return wgpu::Color::TRANSPARENT };
-        let [r, g, b] = if output.format.is_srgb() {
-            srgb.to_linear().0.map(f64::from)
-        } else {
+        let [r, g, b] = if encodes_srgb(output.format) {
             srgb.0.map(|c| f64::from(c) / 255.0)
+        } else {
+            srgb.to_linear().0.map(f64::from)
         };
         wgpu::Color { r, g, b, a: 1.0 }
     }
@@ -270,7 +270,16 @@ impl View {
         if self.instances.is_empty() {
             return fault("instances", "is empty; expected at least one transform".to_owned());
         }
-        Ok(())
+        if let Some(at) = self.instances.iter().position(|m| !m.is_finite() || m.determinant() == 0.0) {
+            return fault(
+                &format!("instances[{at}]"),
+                "is not finite, or flat; expected a place in the world".to_owned(),
+            );
+        }
+        if !self.time_s.is_finite() {
+            return fault("time", format!("is {} s; expected a number", self.time_s));
+        }
+        self.lights.check()
     }
 }
 

@@ -3,6 +3,7 @@
 use glam::Vec3;
 
 use crate::color::LinearRgb;
+use crate::{Error, Result};
 
 /// How many punctual lights a view may have.
 pub const MAX_PUNCTUAL_LIGHTS: usize = 4;
@@ -14,7 +15,7 @@ pub struct Lights {
     pub directional: DirectionalLight,
     /// Light from everywhere.
     pub ambient: Ambient,
-    /// Point and spot lights; at most [`MAX_PUNCTUAL_LIGHTS`] are used.
+    /// Point and spot lights; at most [`MAX_PUNCTUAL_LIGHTS`].
     ///
     /// All lights are accumulated before the toon band is cut, so that many lights still give one clean edge.
     pub punctual: Vec<PunctualLight>,
@@ -30,6 +31,38 @@ impl Lights {
         let [r, g, b] = self.directional.color.0;
         let by_color = 0.5 + 1.5 * (b - r) / r.max(g).max(b).max(1e-6);
         self.coolness.unwrap_or(by_color).clamp(0.0, 1.0)
+    }
+
+    /// Refuses lights that have no direction, or numbers that are none.
+    pub(crate) fn check(&self) -> Result<()> {
+        let fault = |what: String, message: &str| Err(Error::Argument { what, message: message.to_owned() });
+        let directional = &self.directional;
+        if directional.to_light.try_normalize().is_none() {
+            return fault("directional light".to_owned(), "has no direction; expected a vector from the surface to it");
+        }
+        let ambient = [self.ambient.sky, self.ambient.ground];
+        let is_light = |color: &LinearRgb, strength: f32| color.scaled(strength).0.iter().all(|c| c.is_finite());
+        if !is_light(&directional.color, directional.intensity) || !ambient.iter().all(|c| is_light(c, 1.0)) {
+            return fault("lights".to_owned(), "a colour or a strength is not finite");
+        }
+        for (i, light) in self.punctual.iter().enumerate() {
+            let spot = light.spot.is_none_or(|s| s.direction.try_normalize().is_some() && s.outer_rad > 0.0);
+            if !(light.position.is_finite()
+                && light.range.is_finite()
+                && is_light(&light.color, light.intensity)
+                && spot)
+            {
+                return fault(
+                    format!("punctual light {i}"),
+                    "expected a finite place, colour, strength and range, and of a spot light a direction and an angle",
+                );
+            }
+        }
+        if self.punctual.len() > MAX_PUNCTUAL_LIGHTS {
+            let message = format!("are {}; expected at most {MAX_PUNCTUAL_LIGHTS}", self.punctual.len());
+            return fault("punctual lights".to_owned(), &message);
+        }
+        Ok(())
     }
 }
 

@@ -6,6 +6,7 @@ mod animation;
 mod bangs;
 mod camera;
 mod character;
+mod check;
 mod eyes_through;
 mod head;
 mod light;

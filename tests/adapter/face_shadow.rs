@@ -25,7 +25,7 @@ fn heroine() -> Scene {
 fn draw(gpu: &Lent, scene: &Scene, pose: &Pose, view: &View) -> Image {
     support::with_renderer(gpu, |renderer| {
         let mut uploaded = renderer.upload(scene).expect("an upload");
-        uploaded.set_pose(gpu, scene, pose);
+        uploaded.set_pose(scene, pose).expect("a pose of it");
         renderer.render(&mut uploaded, view).expect("a picture")
     })
 }

@@ -11,6 +11,7 @@ mod depth_rim;
 mod eye_layers;
 mod eyes_through;
 mod face_shadow;
+mod faults;
 mod laws;
 mod limits;
 mod oracles;

@@ -117,10 +117,10 @@ fn maps_follow_light_pose_and_places() {
     }
     let mut pose = hikage::motion::Pose::rest(&scene);
     pose.set_stance(&scene, hikage::motion::Stance::Bend);
-    used.set_pose(&gpu, &scene, &pose);
+    used.set_pose(&scene, &pose).expect("a pose of it");
     let bent = renderer.render(&mut used, &views[0]).expect("a picture");
     let mut fresh = renderer.upload(&scene).expect("an upload");
-    fresh.set_pose(&gpu, &scene, &pose);
+    fresh.set_pose(&scene, &pose).expect("a pose of it");
     assert!(bent == renderer.render(&mut fresh, &views[0]).expect("a picture"), "a pose shows an older shadow");
 }
 

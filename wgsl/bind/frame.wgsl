@@ -31,7 +31,6 @@ struct Frame {
     ambient_ground: vec3f,
     // 0 warm, 1 cool.
     coolness: f32,
-    instances: u32,
     // Size of a metre at the nearest character.
     px_per_m: f32,
     punctual: array<PunctualLight, 4>,

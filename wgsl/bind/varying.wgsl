@@ -1,7 +1,7 @@
 // What goes from vertex to fragment: one struct for every pass, with what its shader reads.
-import package::bind::character::character;
+import package::bind::actor::actors;
 import package::bind::frame::frame;
-import package::bind::vertex::{VertexInput, bitangent_sign, world_direction, world_position, world_rotated};
+import package::bind::vertex::{Vertex, bitangent_sign, world_direction, world_position, world_rotated};
 import package::material::{stage_place, stage_vary};
 
 struct Varying {
@@ -31,10 +31,11 @@ struct Varying {
     @if(part) @location(12) @interpolate(flat) part: u32,
     // Depth in a map that is drawn from a light.
     @if(depth) @location(13) depth: f32,
+    @if(actor) @location(14) @interpolate(flat) actor: u32,
 }
 
 // Of a vertex of the picture.
-fn surface_varying(v: VertexInput) -> Varying {
+fn surface_varying(v: Vertex) -> Varying {
     var out: Varying;
     let position = world_position(v, v.position);
     out.clip_position = stage_place(frame.clip_from_world * vec4f(position, 1.0));
@@ -45,18 +46,19 @@ fn surface_varying(v: VertexInput) -> Varying {
 }
 
 // With what passes from vertex to fragment as it is.
-fn with_attributes(v: VertexInput, given: Varying) -> Varying {
+fn with_attributes(v: Vertex, given: Varying) -> Varying {
     var out = given;
     @if(uv) out.uv = v.uv;
     @if(vertex_color) out.color = v.color;
+    @if(actor) out.actor = v.actor;
     return out;
 }
 
 // A world direction by the axes of the face: to the character's left, up, forward.
-fn in_face_frame(v: VertexInput, d: vec3f) -> vec3f {
+fn in_face_frame(v: Vertex, d: vec3f) -> vec3f {
     return vec3f(
-        dot(d, world_rotated(v, character.face_left)),
-        dot(d, world_rotated(v, character.face_up)),
-        dot(d, world_rotated(v, character.face_forward)),
+        dot(d, world_rotated(v, actors[v.actor].face_left)),
+        dot(d, world_rotated(v, actors[v.actor].face_up)),
+        dot(d, world_rotated(v, actors[v.actor].face_forward)),
     );
 }

@@ -1,35 +1,59 @@
-// Vertex streams: the deformed vertices of a character, their fixed attributes, and the transform of an instance.
+// Vertices: where an actor's pose has put them, with their fixed attributes and the place of the actor.
+import package::bind::actor::deformed;
 import package::lib::normal::unit_from_octahedral;
 
 struct VertexInput {
-    // Character space, metres.
-    @location(0) position: vec3f,
-    // Octahedral snorm16 pairs: normal, tangent (lowest bit: sign of the bitangent), outline normal.
-    @location(1) frame: vec3u,
+    @builtin(vertex_index) index: u32,
     // Two UV sets.
-    @location(2) uv: vec4f,
+    @location(0) uv: vec4f,
     // Linear RGBA.
-    @location(3) color: vec4f,
-    @location(4) part: u32,
-    // Rows of world_from_character.
-    @location(5) world_row_x: vec4f,
-    @location(6) world_row_y: vec4f,
-    @location(7) world_row_z: vec4f,
-    @builtin(instance_index) instance: u32,
+    @location(1) color: vec4f,
+    @location(2) part: u32,
+    // Of the instance: rows of world_from_character; the actor, its first vertex among those of all, and a number by the
+    // pass: the shell of a coat, or the actor whose map is drawn.
+    @location(3) world_row_x: vec4f,
+    @location(4) world_row_y: vec4f,
+    @location(5) world_row_z: vec4f,
+    @location(6) actor: vec3u,
 }
 
-fn world_position(v: VertexInput, position: vec3f) -> vec3f {
+struct Vertex {
+    // Character space, metres.
+    position: vec3f,
+    // Octahedral snorm16 pairs: normal, tangent (lowest bit: sign of the bitangent), outline normal.
+    frame: vec3u,
+    uv: vec4f,
+    color: vec4f,
+    part: u32,
+    // Rows of world_from_character.
+    world_row_x: vec4f,
+    world_row_y: vec4f,
+    world_row_z: vec4f,
+    actor: u32,
+    // The number by the pass.
+    extra: u32,
+}
+
+fn vertex_of(in: VertexInput) -> Vertex {
+    let at = deformed[in.actor.y + in.index];
+    return Vertex(
+        vec3f(at.x, at.y, at.z), vec3u(at.normal, at.tangent, at.outline_normal), in.uv, in.color, in.part,
+        in.world_row_x, in.world_row_y, in.world_row_z, in.actor.x, in.actor.z
+    );
+}
+
+fn world_position(v: Vertex, position: vec3f) -> vec3f {
     let p = vec4f(position, 1.0);
     return vec3f(dot(v.world_row_x, p), dot(v.world_row_y, p), dot(v.world_row_z, p));
 }
 
-// Instances rotate, move and scale evenly, so normals need no inverse transpose.
-fn world_direction(v: VertexInput, packed: u32) -> vec3f {
+// Actors rotate, move and scale evenly, so normals need no inverse transpose.
+fn world_direction(v: Vertex, packed: u32) -> vec3f {
     return world_rotated(v, unit_from_octahedral(unpack2x16snorm(packed)));
 }
 
 // A unit direction of the character in the world.
-fn world_rotated(v: VertexInput, d: vec3f) -> vec3f {
+fn world_rotated(v: Vertex, d: vec3f) -> vec3f {
     return normalize(vec3f(dot(v.world_row_x.xyz, d), dot(v.world_row_y.xyz, d), dot(v.world_row_z.xyz, d)));
 }
 

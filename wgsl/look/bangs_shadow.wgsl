@@ -1,9 +1,9 @@
 // Shadow of the bangs.
-import package::bind::character::{BANGS_LAYER, LIDS_LAYER, bangs_from_character, bangs_lit};
+import package::bind::maps::{BANGS_LAYER, LIDS_LAYER, bangs_from_character, bangs_lit};
 import package::bind::shown::shown;
 import package::bind::surface::{Border, Surface};
 import package::bind::varying::Varying;
-import package::bind::vertex::VertexInput;
+import package::bind::vertex::Vertex;
 import package::lib::bangs::bangs_share;
 import package::material::material;
 
@@ -13,9 +13,9 @@ struct BangsShadow {
     edges: vec2f,
 }
 
-fn bangs_shadow_vary(v: VertexInput, given: Varying) -> Varying {
+fn bangs_shadow_vary(v: Vertex, given: Varying) -> Varying {
     var out = given;
-    out.bangs = bangs_from_character(v.position);
+    out.bangs = bangs_from_character(v.actor, v.position);
     return out;
 }
 
@@ -26,8 +26,8 @@ fn bangs_shadow_shade(s: Surface, border: Border) -> Border {
     var light = b.shading;
     @if(shade_ramp) light = ceil(b.soft);
     let share = light * s.directional * b.of_face;
-    var lit = bangs_lit(s.at.bangs, BANGS_LAYER, share > 0.0);
-    @if(bangs_lids) lit = min(lit, bangs_lit(s.at.bangs, LIDS_LAYER, share > 0.0));
+    var lit = bangs_lit(s.at.actor, s.at.bangs, BANGS_LAYER, share > 0.0);
+    @if(bangs_lids) lit = min(lit, bangs_lit(s.at.actor, s.at.bangs, LIDS_LAYER, share > 0.0));
     b.received = share * bangs_share(lit, m.edges, m.strength);
     b.bangs = mix(vec3f(1.0), m.color, b.received);
     @if(channel_bangs_shadow) shown = vec3f(lit);

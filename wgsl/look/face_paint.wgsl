@@ -1,11 +1,11 @@
 // Blush and lines.
-import package::bind::character::character;
+import package::bind::actor::actors;
 import package::bind::frame::frame;
 import package::bind::shown::shown;
 import package::bind::surface::{Border, Surface};
 import package::bind::uv::{UvTransform, texture_uv};
 import package::bind::varying::{Varying, in_face_frame};
-import package::bind::vertex::{VertexInput, world_position};
+import package::bind::vertex::{Vertex, world_position};
 import package::lib::face_paint::face_paint_factor;
 import package::material::{face_paint_map, face_paint_map_sampler, material};
 
@@ -19,9 +19,9 @@ struct FacePaint {
     map_uv: UvTransform,
 }
 
-fn face_paint_vary(v: VertexInput, given: Varying) -> Varying {
+fn face_paint_vary(v: Vertex, given: Varying) -> Varying {
     var out = given;
-    let view = in_face_frame(v, normalize(frame.eye - world_position(v, character.head)));
+    let view = in_face_frame(v, normalize(frame.eye - world_position(v, actors[v.actor].head)));
     // atan2(0, 0) is left to the driver.
     let yaw = atan2(abs(view.x), select(1e-6, view.z, abs(view.z) > 1e-6));
     let fade = material.face_paint.nose_line_yaw_rad;

@@ -3,7 +3,7 @@ import package::bind::frame::frame;
 import package::bind::shown::shown;
 import package::bind::surface::{Border, Surface};
 import package::bind::varying::{Varying, in_face_frame};
-import package::bind::vertex::VertexInput;
+import package::bind::vertex::Vertex;
 import package::lib::face_shadow::{
     face_back_share, face_light_angle, face_lit, face_masked, face_measure, face_shading, face_side, face_stack_place,
 };
@@ -21,7 +21,7 @@ struct FaceShadow {
     cosine: f32,
 }
 
-fn face_shadow_vary(v: VertexInput, given: Varying) -> Varying {
+fn face_shadow_vary(v: Vertex, given: Varying) -> Varying {
     var out = given;
     let light = in_face_frame(v, frame.to_light);
     let angle = face_light_angle(light, material.face_shadow.overhead_fade);

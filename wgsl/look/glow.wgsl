@@ -1,5 +1,5 @@
 // How much of a surface blooms, and the light on what shines; wgsl/pass/glow.wgsl draws it.
-import package::bind::character::shadow_lit;
+import package::bind::maps::shadow_lit;
 import package::bind::frame::frame;
 import package::bind::surface::{Border, Surface};
 import package::lib::mtoon::mtoon_shading;
@@ -17,7 +17,7 @@ fn glow_border(s: Surface) -> Border {
     b.shading = mtoon_shading(dot(s.normal, frame.to_light), material.toon.shift, material.toon.toony);
     b.own_lit = 1.0;
     @if(cast_shadow) {
-        b.own_lit = shadow_lit(s.at.shadow, b.shading > 0.0);
+        b.own_lit = shadow_lit(s.at.actor, s.at.shadow, b.shading > 0.0);
         b.shading *= 1.0 - (1.0 - b.own_lit) * material.cast_shadow.received;
     }
     return b;

@@ -1,11 +1,11 @@
 // A painted highlight that moves.
-import package::bind::character::character;
+import package::bind::actor::actors;
 import package::bind::frame::frame;
 import package::bind::shown::shown;
 import package::bind::surface::{Border, Shaded, Surface};
 import package::bind::uv::{UvTransform, texture_uv};
 import package::bind::varying::Varying;
-import package::bind::vertex::{VertexInput, world_position, world_rotated};
+import package::bind::vertex::{Vertex, world_position, world_rotated};
 import package::lib::highlight::{highlight_broken, highlight_fade, highlight_offset};
 import package::material::{highlight_map, highlight_map_sampler, material};
 
@@ -25,12 +25,12 @@ struct Highlight {
     map_uv: UvTransform,
 }
 
-fn highlight_vary(v: VertexInput, given: Varying) -> Varying {
+fn highlight_vary(v: Vertex, given: Varying) -> Varying {
     var out = given;
     let m = &material.highlight;
-    let view = normalize(frame.eye - world_position(v, character.head));
-    let forward = world_rotated(v, character.face_forward);
-    let up = world_rotated(v, character.face_up);
+    let view = normalize(frame.eye - world_position(v, actors[v.actor].head));
+    let forward = world_rotated(v, actors[v.actor].face_forward);
+    let up = world_rotated(v, actors[v.actor].face_up);
     let offset = highlight_offset(view, frame.to_light, forward, up, m.turn_u, m.light_v, m.view_v);
     out.moved = vec3f(offset, highlight_fade(dot(view, forward), dot(view, frame.to_light), m.facing));
     return out;

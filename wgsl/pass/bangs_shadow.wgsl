@@ -1,14 +1,15 @@
 // Depth of what casts on the face, from the light of the bangs' shadow.
-import package::bind::character::{bangs_from_character, bangs_from_world};
+import package::bind::maps::{bangs_from_character, bangs_from_world};
 import package::bind::varying::{Varying, with_attributes};
-import package::bind::vertex::{VertexInput, world_position};
+import package::bind::vertex::{VertexInput, vertex_of, world_position};
 import package::material::stage_gone;
 
 @vertex
-fn vs_main(v: VertexInput) -> Varying {
-    var at = bangs_from_character(v.position);
-    if v.instance > 0u {
-        at = bangs_from_world(world_position(v, v.position));
+fn vs_main(in: VertexInput) -> Varying {
+    let v = vertex_of(in);
+    var at = bangs_from_character(v.actor, v.position);
+    if v.actor != v.extra {
+        at = bangs_from_world(v.extra, world_position(v, v.position));
     }
     // What stands before the map's range casts from its front.
     at.z = max(at.z, 0.0);

@@ -1,16 +1,6 @@
 // Morphs and skin, once a frame for every vertex; every later pass reads the result.
+import package::bind::actor::DeformVertex;
 import package::lib::normal::{normalize_or, octahedral_from_unit, unit_from_octahedral};
-
-// A vertex: position (character space after this pass) and octahedral snorm16 pairs of its normal, tangent
-// (lowest bit: sign of the bitangent) and outline normal.
-struct DeformVertex {
-    x: f32,
-    y: f32,
-    z: f32,
-    normal: u32,
-    tangent: u32,
-    outline_normal: u32,
-}
 
 // Vertices of one mesh part under one node.
 struct DeformGroup {

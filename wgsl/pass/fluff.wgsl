@@ -3,19 +3,16 @@ import package::bind::frame::frame;
 import package::bind::pixel::{Pixel, pixel};
 import package::bind::surface::{drawn, encoded};
 import package::bind::varying::{Varying, surface_varying};
-import package::bind::vertex::VertexInput;
+import package::bind::vertex::{VertexInput, vertex_of};
 import package::lib::fluff::{fluff_cover, fluff_shells, fluff_strand, fluff_wind};
 import package::material::{material, stage_samples};
 
 @vertex
-fn vs_main(vertex: VertexInput) -> Varying {
+fn vs_main(in: VertexInput) -> Varying {
+    let v = vertex_of(in);
     let m = &material.fluff;
-    var v = vertex;
-    // Copies of the instances follow each other, one for each shell.
-    let shell = f32(v.instance / frame.instances);
-    v.instance = v.instance % frame.instances;
     var out = surface_varying(v);
-    out.level = shell / fluff_shells(m.length_m, frame.px_per_m, f32(m.shells));
+    out.level = f32(v.extra) / fluff_shells(m.length_m, frame.px_per_m, f32(m.shells));
     let phase = fract(frame.time_s / m.wind_period_s);
     let bend = out.level * out.level;
     out.world_position = out.world_position + out.normal * m.length_m * out.level - vec3f(0.0, m.gravity_m * bend, 0.0)

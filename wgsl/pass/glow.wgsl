@@ -2,13 +2,13 @@
 import package::bind::frame::{distance_at, frame};
 import package::bind::surface::{framed, surface_of};
 import package::bind::varying::{Varying, surface_varying};
-import package::bind::vertex::VertexInput;
+import package::bind::vertex::{VertexInput, vertex_of};
 import package::look::glow::glow_border;
 import package::material::{material, stage_emitted, stage_glow, stage_left, stage_vanish};
 
 @vertex
-fn vs_main(v: VertexInput) -> Varying {
-    return surface_varying(v);
+fn vs_main(in: VertexInput) -> Varying {
+    return surface_varying(vertex_of(in));
 }
 
 // Whether something stands before a place. Its pixel covers four of the prepass.

@@ -5,7 +5,7 @@ import package::bind::pixel::{Pixel, pixel};
 import package::bind::surface::{drawn, encoded, surface_of};
 import package::bind::uv::texture_uv;
 import package::bind::varying::{Varying, surface_varying};
-import package::bind::vertex::{VertexInput, world_direction, world_position};
+import package::bind::vertex::{VertexInput, vertex_of, world_direction, world_position};
 import package::lib::eyes_through::pulled_depth;
 import package::lib::mtoon::mtoon_outline;
 import package::lib::outline::{outline_bounded, outline_clip, outline_tinted};
@@ -16,7 +16,8 @@ import package::material::{
 };
 
 @vertex
-fn vs_main(v: VertexInput) -> Varying {
+fn vs_main(in: VertexInput) -> Varying {
+    let v = vertex_of(in);
     let m = &material.outline;
     var out = surface_varying(v);
     var width = m.width;

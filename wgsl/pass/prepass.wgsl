@@ -1,12 +1,13 @@
 // Depth of all surfaces, one sample a pixel, and normal and part of the nearest, for effects and channels that read them.
 import package::bind::frame::frame;
 import package::bind::varying::{Varying, with_attributes};
-import package::bind::vertex::{VertexInput, world_direction, world_position};
+import package::bind::vertex::{VertexInput, vertex_of, world_direction, world_position};
 import package::lib::normal::octahedral_from_unit;
 import package::material::stage_gone;
 
 @vertex
-fn vs_main(v: VertexInput) -> Varying {
+fn vs_main(in: VertexInput) -> Varying {
+    let v = vertex_of(in);
     var out: Varying;
     let position = world_position(v, v.position);
     out.clip_position = frame.clip_from_world * vec4f(position, 1.0);

@@ -1,11 +1,12 @@
 // Depth of a character from the key light.
-import package::bind::character::shadow_from_world;
+import package::bind::maps::shadow_from_world;
 import package::bind::varying::{Varying, with_attributes};
-import package::bind::vertex::{VertexInput, world_position};
+import package::bind::vertex::{VertexInput, vertex_of, world_position};
 import package::material::stage_gone;
 
 @vertex
-fn vs_main(v: VertexInput) -> Varying {
+fn vs_main(in: VertexInput) -> Varying {
+    let v = vertex_of(in);
     let at = shadow_from_world(v, world_position(v, v.position));
     var out: Varying;
     // What stands before the map's range casts from its front.

@@ -1,12 +1,12 @@
 // Blended surfaces; the output is premultiplied.
 import package::bind::surface::{drawn, encoded};
 import package::bind::varying::{Varying, surface_varying};
-import package::bind::vertex::VertexInput;
+import package::bind::vertex::{VertexInput, vertex_of};
 import package::material::stage_left;
 
 @vertex
-fn vs_main(v: VertexInput) -> Varying {
-    return surface_varying(v);
+fn vs_main(in: VertexInput) -> Varying {
+    return surface_varying(vertex_of(in));
 }
 
 @fragment

@@ -33,7 +33,7 @@ pub(crate) struct DeformInput<'a> {
 pub(crate) struct DeformBuffers {
     pub joints: wgpu::Buffer,
     pub weights: wgpu::Buffer,
-    /// First vertex stream of every draw.
+    /// What every draw reads its vertices from.
     pub deformed: wgpu::Buffer,
     group: wgpu::BindGroup,
     vertices: u32,
@@ -70,7 +70,7 @@ impl DeformPass {
         let morphs = fixed("morphs", bytemuck::cast_slice(input.morphs));
         let joints = sized("joints", input.joint_count * size_of::<AffineRows>(), U::STORAGE | U::COPY_DST);
         let weights = sized("morph weights", input.weight_count * size_of::<f32>(), U::STORAGE | U::COPY_DST);
-        let deformed = sized("deformed vertices", size_of_val(input.source), U::STORAGE | U::VERTEX);
+        let deformed = sized("deformed vertices", size_of_val(input.source), U::STORAGE);
         let bound = [&groups, &source, &vertex_refs, &influences, &morphs, &joints, &weights, &deformed];
         let layout = self.pipeline.get_bind_group_layout(0);
         let group = bind::group(gpu, "deform", &layout, bound.iter().map(|b| b.as_entire_binding()));

@@ -194,7 +194,8 @@ pub(crate) fn surface_cull(material: &Material) -> Option<wgpu::Face> {
     (!material.double_sided).then_some(wgpu::Face::Back)
 }
 
-/// Whether the shader must encode sRGB because the target does not.
+/// Whether the shader must encode sRGB because the target does not. Floats stay linear.
 pub(crate) fn encodes_srgb(format: wgpu::TextureFormat) -> bool {
-    !(format.is_srgb() || format == HDR_FORMAT)
+    use wgpu::TextureFormat as F;
+    !(format.is_srgb() || matches!(format, F::Rgba16Float | F::Rgba32Float | F::Rg11b10Ufloat))
 }

@@ -4,6 +4,7 @@ use super::encodes_srgb;
 use crate::render::frame::{post_numbers, put_post};
 use crate::render::layout::Filled;
 use crate::render::shaders::Recipe;
+use crate::render::uploads::Uploads;
 use crate::render::variants::Variants;
 use crate::render::{Background, Output, bind, targets};
 use crate::scene::Post;
@@ -73,13 +74,13 @@ impl PostPass {
     /// Draws the finished picture.
     pub fn encode(
         &mut self,
-        gpu: &Gpu,
+        uploads: &mut Uploads,
         encoder: &mut wgpu::CommandEncoder,
         inputs: &PostInputs<'_>,
         timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
     ) {
         let bytes = self.numbers.fill(|numbers| put_post(numbers, inputs.post, inputs.background));
-        gpu.queue.write_buffer(&self.uniform, 0, bytes);
+        uploads.write(encoder, &self.uniform, 0, bytes);
         targets::draw_picture(encoder, "post", inputs.target, true, &self.pipeline.1, inputs.group, timestamps);
     }
 }

@@ -37,7 +37,6 @@ pub(crate) struct ShadowRows {
     pub spread: f32,
     /// Character space.
     pub middle: Vec3,
-    pub layers: u32,
 }
 
 /// What the pass reads and writes.
@@ -66,8 +65,13 @@ impl ShadowMap {
         true
     }
 
+    /// The layer of a character, where there is one.
+    pub fn layer(&self, character: usize) -> Option<u32> {
+        (character < self.layers.len()).then_some(character as u32)
+    }
+
     /// Places in the maps while the middle stands there and the light so, in the world.
-    pub fn rows(&self, middle: Vec3, to_light: Vec3, characters: usize) -> ShadowRows {
+    pub fn rows(&self, middle: Vec3, to_light: Vec3) -> ShadowRows {
         let to_light = to_light.normalize_or(Vec3::Z);
         // The camera's up is the world's, unless the light comes from there.
         let right = Vec3::Y.cross(to_light).try_normalize().filter(|r| r.is_finite()).unwrap_or(Vec3::X);
@@ -82,7 +86,6 @@ impl ShadowMap {
             // Three taps of a texel each span the edge.
             spread: (self.settings.soft_width_m / (3.0 * width)).max(texel),
             middle,
-            layers: self.layers.len().min(characters) as u32,
         }
     }
 }

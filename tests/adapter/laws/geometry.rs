@@ -71,7 +71,7 @@ fn joints_move_what_they_hold_with_any_number_of_influences() {
         assert_eq!(pixel(&rest, 64, 30)[..3], [0x80; 3], "nothing above the cube at rest");
         let mut pose = Pose::rest(&scene);
         pose.locals[2].translation.y = 0.3;
-        uploaded.set_pose(&gpu, &scene, &pose);
+        uploaded.set_pose(&scene, &pose).expect("a pose of it");
         let raised = renderer.render(&mut uploaded, &view).expect("a picture");
         assert_ne!(pixel(&raised, 64, 30)[..3], [0x80; 3], "the upper half is raised, {per_vertex} influences");
         assert_ne!(pixel(&raised, 64, 78)[..3], [0x80; 3], "the lower half stays, {per_vertex} influences");
@@ -99,7 +99,7 @@ fn morph_targets_move_only_their_vertices() {
         .map(|weight| {
             let mut pose = Pose::rest(&scene);
             pose.morph_weights[0][1] = weight;
-            uploaded.set_pose(&gpu, &scene, &pose);
+            uploaded.set_pose(&scene, &pose).expect("a pose of it");
             let image = renderer.render(&mut uploaded, &view).expect("a picture");
             (0..128).filter(|&y| pixel(&image, 64, y)[..3] != [0x80; 3]).count() as u32
         })

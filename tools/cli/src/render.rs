@@ -166,7 +166,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let mut renderer = timed(&mut ms.pipelines, || Renderer::with_output(&gpu, output))?;
     spinner.step("uploading");
     let mut gpu_scene = timed(&mut ms.upload, || renderer.upload_and_empty_images(&mut scene))?;
-    gpu_scene.set_pose(&gpu, &scene, &pose);
+    gpu_scene.set_pose(&scene, &pose)?;
     spinner.step("drawing");
     let picture = timed(&mut ms.first_frame, || renderer.render(&mut gpu_scene, &view))?;
     let png = timed(&mut ms.encode, || encode_png(&picture))?;

@@ -187,7 +187,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
                     let turn = Quat::from_rotation_y(shown.head_deg.to_radians());
                     pose.locals[head].rotation *= turn;
                 }
-                gpu_scene.set_pose(&gpu, &scene, &pose);
+                gpu_scene.set_pose(&scene, &pose)?;
                 let picture = renderer.render(&mut gpu_scene, &view)?;
                 let left = GAP + column as u32 * (panel + GAP);
                 place(&mut sheet, &picture, left, top);

@@ -181,7 +181,7 @@ impl Studio {
         }
         let Some((_, scene, gpu_scene)) = &mut self.loaded else { return Err(fail(&"no model")) };
         let expressions: Vec<_> = reference.expressions.into_iter().flatten().collect();
-        gpu_scene.set_pose(&self.gpu, scene, &setup::pose(scene, hikage::motion::Stance::Rest, &expressions)?);
+        gpu_scene.set_pose(scene, &setup::pose(scene, hikage::motion::Stance::Rest, &expressions)?)?;
         let ours = self.renderer.render(gpu_scene, &view)?;
         let plain = |channel| View { channel, background: Background::Transparent, ..view.clone() };
         let ids = part_ids(&self.renderer.render(gpu_scene, &plain(Channel::PartId))?);
@@ -219,7 +219,7 @@ impl Studio {
         let like_theirs = if known.iter().any(|k| *k != Known::Normal) {
             let scene = known::reproduce(scene, view.camera.eye.distance(view.camera.target));
             let mut gpu_scene = self.renderer.upload(&scene)?;
-            gpu_scene.set_pose(&self.gpu, &scene, &setup::pose(&scene, hikage::motion::Stance::Rest, &expressions)?);
+            gpu_scene.set_pose(&scene, &setup::pose(&scene, hikage::motion::Stance::Rest, &expressions)?)?;
             self.renderer.render(&mut gpu_scene, &view)?
         } else {
             ours

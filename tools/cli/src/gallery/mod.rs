@@ -57,7 +57,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let mut renderer = Renderer::with_output(&gpu, Output::default())?;
     for (i, sheet) in sheets.iter().enumerate() {
         spinner.step(format!("{} of {}: {}", i + 1, sheets.len(), sheet.title));
-        let picture = draw(&gpu, &mut renderer, [&plain, &scene], sheet, args.panel)?;
+        let picture = draw(&mut renderer, [&plain, &scene], sheet, args.panel)?;
         write_atomic(args.output.join(format!("{}.png", sheet.name)), &encode_png(&picture)?)?;
     }
     drop(spinner);
@@ -67,13 +67,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
 }
 
 /// Draws a sheet; every row has its own scene.
-fn draw(
-    gpu: &Gpu,
-    renderer: &mut Renderer,
-    [plain, looked]: [&Scene; 2],
-    sheet: &Sheet,
-    panel: u32,
-) -> Result<Image, Failure> {
+fn draw(renderer: &mut Renderer, [plain, looked]: [&Scene; 2], sheet: &Sheet, panel: u32) -> Result<Image, Failure> {
     let width = |p: &Panel| (panel as f32 * p.aspect).round() as u32;
     let row_width = |r: &Row| r.panels.iter().map(|p| width(p) + GAP).sum::<u32>() + GAP;
     let height = GAP + sheet.rows.len() as u32 * (panel + LINE + GAP);
@@ -86,7 +80,7 @@ fn draw(
         let mut left = GAP;
         for shown in &row.panels {
             let size = [width(shown), panel];
-            let drawn = draw_panel(gpu, renderer, &mut uploaded, &scene, shown, size)?;
+            let drawn = draw_panel(renderer, &mut uploaded, &scene, shown, size)?;
             place(&mut picture, &drawn, left, top);
             write(&mut picture, &shown.caption, left, top + panel + 4);
             left += size[0] + GAP;
@@ -97,7 +91,6 @@ fn draw(
 }
 
 fn draw_panel(
-    gpu: &Gpu,
     renderer: &mut Renderer,
     uploaded: &mut GpuScene,
     scene: &Scene,
@@ -117,7 +110,7 @@ fn draw_panel(
     if let Some(head) = scene.bone_node(HumanBone::Head) {
         pose.locals[head].rotation *= Quat::from_rotation_y(panel.head_deg.to_radians());
     }
-    uploaded.set_pose(gpu, scene, &pose);
+    uploaded.set_pose(scene, &pose)?;
     let [yaw, pitch] = panel.light_deg.map(f32::to_radians);
     let lights = &mut view.lights;
     lights.directional.to_light = Vec3::new(yaw.sin() * pitch.cos(), pitch.sin(), yaw.cos() * pitch.cos());

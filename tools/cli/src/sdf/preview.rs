@@ -103,7 +103,7 @@ impl Stage {
         let down = Vec3::NEG_Y * height * LOWER;
         (camera.eye, camera.target) = (camera.eye + down, camera.target + down);
         camera.fov_y_rad *= CLOSER;
-        gpu_scene.set_pose(gpu, &scene, &pose);
+        gpu_scene.set_pose(&scene, &pose)?;
         let view = View { background: Background::Color(BEHIND), ..framed };
         let drawn = project.keys.iter().map(ProjectKey::angle).collect();
         Ok(Self { renderer, gpu_scene, view, is_mirrored: sides.right.is_none(), sides, panel, drawn })

@@ -46,7 +46,6 @@ fn goldens() -> Goldens {
 
 /// The character on the GPU.
 struct Studio {
-    gpu: Gpu,
     renderer: Renderer,
     scene: Scene,
     gpu_scene: GpuScene,
@@ -77,7 +76,6 @@ impl Studio {
         let gpu_scene = renderer.upload_and_empty_images(&mut scene).expect("the scene is uploaded");
         let goldens = goldens();
         Self {
-            gpu,
             renderer,
             scene,
             gpu_scene,
@@ -108,7 +106,7 @@ impl Studio {
         if let Some(head) = self.scene.bone_node(HumanBone::Head) {
             pose.locals[head].rotation *= Quat::from_rotation_y(self.head_deg.to_radians());
         }
-        self.gpu_scene.set_pose(&self.gpu, &self.scene, &pose);
+        self.gpu_scene.set_pose(&self.scene, &pose).expect("a pose of it");
         let mut view =
             View { channel: self.channel, background: Background::Color(Srgb([0xdf, 0xe7, 0xee])), ..framed };
         let [yaw, pitch] = self.light_deg.map(f32::to_radians);

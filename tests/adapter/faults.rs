@@ -1,0 +1,300 @@
+//! What an application does wrong is an error that names it: never a panic, never another picture.
+
+use hikage::material::TextureRef;
+use hikage::motion::Pose;
+use hikage::scene::{Camera, Framing, Node, PunctualLight, Scene, SpotCone, Transform};
+use hikage::{Background, Error, Gpu, Output, Renderer, View, color::LinearRgb, color::Srgb};
+
+use crate::support::{anime_heroine, gpu, scene, sphere, texture, two_tone, view};
+use glam::{Mat4, Quat, Vec3};
+
+fn ball() -> Scene {
+    scene(vec![(sphere(0.5, 16, 32), two_tone())])
+}
+
+fn target(gpu: &Gpu, size: [u32; 2], format: wgpu::TextureFormat, samples: u32) -> wgpu::Texture {
+    gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: None,
+        size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: samples,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
+        view_formats: &[],
+    })
+}
+
+fn texels(gpu: &Gpu, texture: &wgpu::Texture) -> Vec<u8> {
+    let (width, height) = (texture.width(), texture.height());
+    let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: None,
+        size: u64::from(width * 4 * height),
+        usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+        mapped_at_creation: false,
+    });
+    let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+    let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(width * 4), rows_per_image: None };
+    encoder.copy_texture_to_buffer(
+        texture.as_image_copy(),
+        wgpu::TexelCopyBufferInfo { buffer: &buffer, layout },
+        texture.size(),
+    );
+    gpu.queue.submit([encoder.finish()]);
+    buffer.slice(..).map_async(wgpu::MapMode::Read, |result| result.expect("mapped"));
+    gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("done");
+    buffer.slice(..).get_mapped_range().expect("mapped").to_vec()
+}
+
+/// The message of an error in the caller's arguments.
+fn argument<T>(result: hikage::Result<T>) -> String {
+    match result.err() {
+        Some(error @ Error::Argument { .. }) => error.to_string(),
+        other => panic!("expected an error of an argument, not {other:?}"),
+    }
+}
+
+#[test]
+fn frames_of_one_submit_keep_their_views_poses_and_colours() {
+    let gpu = gpu();
+    let scene = ball();
+    let mut renderer = Renderer::new(&gpu).expect("a renderer");
+    let mut uploaded = renderer.upload(&scene).expect("an upload");
+    let mut moved = Pose::rest(&scene);
+    moved.locals[0].translation.x = 0.4;
+    let mut blue = scene.materials[0].clone();
+    blue.base.color = [0.1, 0.2, 0.9, 1.0];
+    let mut painted = Pose::rest(&scene);
+    painted.materials.insert(0, blue);
+    let mut lit = view(256, 2.0);
+    lit.lights.directional.to_light = Vec3::new(1.0, 0.2, 0.1);
+    let frames = [(Pose::rest(&scene), view(256, 2.0)), (moved, view(256, 3.0)), (painted, lit)];
+
+    let format = Output::default().format;
+    let targets: Vec<_> = frames.iter().map(|_| target(&gpu, [256; 2], format, 1)).collect();
+    let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+    for ((pose, view), target) in frames.iter().zip(&targets) {
+        uploaded.set_pose(&scene, pose).expect("a pose of it");
+        let target = target.create_view(&wgpu::TextureViewDescriptor::default());
+        renderer.encode_frame(&mut encoder, &mut uploaded, view, &target).expect("a frame");
+    }
+    gpu.queue.submit([encoder.finish()]);
+    for ((pose, view), target) in frames.iter().zip(&targets) {
+        let alone = target_of(&gpu, &mut renderer, &mut uploaded, &scene, pose, view);
+        assert!(texels(&gpu, target) == alone, "another frame's numbers");
+    }
+}
+
+/// Texels of a frame with a submit of its own.
+fn target_of(
+    gpu: &Gpu,
+    renderer: &mut Renderer,
+    uploaded: &mut hikage::GpuScene,
+    scene: &Scene,
+    pose: &Pose,
+    view: &View,
+) -> Vec<u8> {
+    let target = target(gpu, view.size, Output::default().format, 1);
+    uploaded.set_pose(scene, pose).expect("a pose of it");
+    let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+    let into = target.create_view(&wgpu::TextureViewDescriptor::default());
+    renderer.encode_frame(&mut encoder, uploaded, view, &into).expect("a frame");
+    gpu.queue.submit([encoder.finish()]);
+    texels(gpu, &target)
+}
+
+#[test]
+fn every_output_that_is_read_back_gives_the_same_picture() {
+    let gpu = gpu();
+    let mut scene = ball();
+    scene.materials[0].base.color = [0.9, 0.3, 0.1, 1.0];
+    for background in [Background::Transparent, Background::Color(Srgb([40, 90, 200]))] {
+        let view = View { background, ..view(64, 2.0) };
+        // Samples of an encoded target are resolved on encoded values.
+        let of = |format| {
+            let mut renderer = Renderer::with_output(&gpu, Output { format, samples: 1 }).expect("a renderer");
+            let mut uploaded = renderer.upload(&scene).expect("an upload");
+            renderer.render(&mut uploaded, &view).expect("a picture").pixels
+        };
+        use wgpu::TextureFormat as F;
+        let expected = of(F::Rgba8UnormSrgb);
+        assert!(expected == of(F::Bgra8UnormSrgb), "red and blue change places");
+        assert!(of(F::Rgba8Unorm) == of(F::Bgra8Unorm), "red and blue change places");
+        for format in [F::Rgba8Unorm, F::Rgba16Float] {
+            let most = expected.iter().zip(of(format)).map(|(a, b)| a.abs_diff(b)).max();
+            assert!(most <= Some(1), "{format:?} differs by {most:?}");
+        }
+    }
+    let format = wgpu::TextureFormat::R8Unorm;
+    let mut renderer = Renderer::with_output(&gpu, Output { format, samples: 1 }).expect("a renderer");
+    let mut uploaded = renderer.upload(&scene).expect("an upload");
+    let message = argument(renderer.render(&mut uploaded, &view(64, 2.0)));
+    assert!(message.contains("R8Unorm") && message.contains("expected Rgba8Unorm"), "{message}");
+}
+
+#[test]
+fn targets_and_scenes_that_do_not_fit_are_refused() {
+    let gpu = gpu();
+    let scene = ball();
+    let mut renderer = Renderer::new(&gpu).expect("a renderer");
+    let mut uploaded = renderer.upload(&scene).expect("an upload");
+    let format = Output::default().format;
+    let other = wgpu::TextureFormat::Bgra8Unorm;
+    for (target, word) in [
+        (target(&gpu, [64, 32], format, 1), "target: size: has 64 x 32; expected 64 x 64"),
+        (target(&gpu, [64, 64], other, 1), "target: format: has Bgra8Unorm; expected Rgba8UnormSrgb"),
+        (target(&gpu, [64, 64], format, 4), "target: samples: has 4"),
+    ] {
+        let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let target = target.create_view(&wgpu::TextureViewDescriptor::default());
+        let message = argument(renderer.encode_frame(&mut encoder, &mut uploaded, &view(64, 2.0), &target));
+        assert!(message.contains(word), "{message}");
+    }
+    let mut single = Renderer::with_output(&gpu, Output { samples: 1, ..Output::default() }).expect("a renderer");
+    let message = argument(single.render(&mut uploaded, &view(64, 2.0)));
+    assert!(message.contains("another output") && message.contains("upload it"), "{message}");
+    let elsewhere = Gpu::headless(Some(&gpu.info().name)).expect("a second device");
+    let mut there = Renderer::new(&elsewhere).expect("a renderer");
+    let message = argument(there.render(&mut uploaded, &view(64, 2.0)));
+    assert!(message.contains("another device"), "{message}");
+}
+
+#[test]
+fn scenes_made_in_code_are_checked_at_their_upload() {
+    type Break = fn(&mut Scene);
+    let cases: [(&str, Break); 15] = [
+        ("nodes[0].parent: is 0", |s| s.nodes[0].parent = Some(0)),
+        ("nodes[0].parent: is 1", |s| {
+            s.nodes.push(Node::default());
+            s.nodes[0].parent = Some(1);
+        }),
+        ("nodes[0].mesh: refers to 7; there are 1", |s| s.nodes[0].mesh = Some(7)),
+        ("nodes[0].skin: refers to 0; there are 0", |s| s.nodes[0].skin = Some(0)),
+        ("nodes[0].transform: is not finite", |s| s.nodes[0].transform.translation.y = f32::NAN),
+        ("primitives[0].material: refers to 999", |s| s.meshes[0].primitives[0].material = 999),
+        ("primitives[0].indices: refers to 1000000", |s| s.meshes[0].primitives[0].indices[4] = 1_000_000),
+        ("primitives[0].indices: has", |s| s.meshes[0].primitives[0].indices.truncate(4)),
+        ("primitives[0].positions[3]: is not finite", |s| s.meshes[0].primitives[0].positions[3][1] = f32::INFINITY),
+        ("primitives[0].normals: has 5", |s| s.meshes[0].primitives[0].normals.truncate(5)),
+        ("primitives[0].influences.joints: has 0", |s| s.meshes[0].primitives[0].influences.per_vertex = 4),
+        ("primitives[0].morphs: has 0; expected 1", |s| s.meshes[0].morph_names.push("aa".to_owned())),
+        ("base.texture: refers to 999", |s| {
+            s.materials[0].base.texture = Some(TextureRef { texture: 999, ..TextureRef::default() });
+        }),
+        ("textures[0].image: refers to 3", |s| {
+            s.materials[0].base.texture = Some(texture(s, 2, 2, |_, _| [255; 4]));
+            s.textures[0].image = 3;
+        }),
+        ("is 2x2 with 7 bytes", |s| {
+            s.materials[0].base.texture = Some(texture(s, 2, 2, |_, _| [255; 4]));
+            s.images[0].pixels.truncate(7);
+        }),
+    ];
+    let gpu = gpu();
+    let mut renderer = Renderer::new(&gpu).expect("a renderer");
+    for (words, broken) in cases {
+        let mut scene = ball();
+        broken(&mut scene);
+        let message = argument(renderer.upload(&scene));
+        assert!(message.contains(words), "{message}; expected {words}");
+    }
+}
+
+#[test]
+fn poses_places_and_lights_that_are_none_are_refused() {
+    let gpu = gpu();
+    let scene = ball();
+    let mut renderer = Renderer::new(&gpu).expect("a renderer");
+    let mut uploaded = renderer.upload(&scene).expect("an upload");
+    let rest = Pose::rest(&scene);
+    let mut turned = rest.clone();
+    turned.locals[0].rotation = Quat::from_xyzw(f32::NAN, 0.0, 0.0, 1.0);
+    let mut stranger = rest.clone();
+    stranger.locals.push(Transform::default());
+    let mut painted = rest.clone();
+    painted.materials.insert(9, two_tone());
+    for (pose, words) in [
+        (turned, "pose.locals[0]"),
+        (stranger, "pose.locals: has 2 nodes; the scene has 1"),
+        (painted, "pose.materials[9]: there are 1"),
+    ] {
+        let message = argument(uploaded.set_pose(&scene, &pose));
+        assert!(message.contains(words), "{message}");
+    }
+    let message = argument(uploaded.set_pose(&Scene::default(), &Pose::default()));
+    assert!(message.contains("has 0 nodes and 0 materials"), "{message}");
+
+    type Break = fn(&mut View);
+    let lamp = PunctualLight {
+        position: Vec3::ONE,
+        color: LinearRgb::WHITE,
+        intensity: 1.0,
+        range: 0.0,
+        spot: Some(SpotCone { direction: Vec3::ZERO, inner_rad: 0.1, outer_rad: 0.2 }),
+    };
+    let cases: [(&str, Break); 6] = [
+        ("directional light: has no direction", |v| v.lights.directional.to_light = Vec3::ZERO),
+        ("lights: a colour", |v| v.lights.directional.intensity = f32::NAN),
+        ("instances[0]: is not finite", |v| v.instances[0] = Mat4::from_scale(Vec3::splat(f32::NAN))),
+        ("instances[0]: is not finite, or flat", |v| v.instances[0] = Mat4::ZERO),
+        ("time: is NaN", |v| v.time_s = f32::NAN),
+        ("camera: eye", |v| v.camera = Camera { eye: v.camera.target, ..v.camera }),
+    ];
+    for (words, broken) in cases {
+        let mut view = view(64, 2.0);
+        broken(&mut view);
+        let message = argument(renderer.render(&mut uploaded, &view));
+        assert!(message.contains(words), "{message}");
+    }
+    let mut spotted = view(64, 2.0);
+    spotted.lights.punctual = vec![lamp];
+    assert!(argument(renderer.render(&mut uploaded, &spotted)).contains("punctual light 0"));
+    spotted.lights.punctual = vec![PunctualLight { spot: None, ..lamp }; 5];
+    assert!(argument(renderer.render(&mut uploaded, &spotted)).contains("at most 4"));
+}
+
+#[test]
+fn a_device_that_is_too_small_is_told_what_it_lacks() {
+    let lent = gpu();
+    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
+    let adapters = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::PRIMARY));
+    let adapter = adapters.into_iter().find(|a| a.get_info().name == lent.info().name).expect("that of the tests");
+    let device = |limits| {
+        pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
+            required_features: Gpu::wanted_features(&adapter),
+            required_limits: limits,
+            ..Default::default()
+        }))
+        .expect("a device")
+    };
+    let few = wgpu::Limits { max_sampled_textures_per_shader_stage: 8, ..wgpu::Limits::default() };
+    let (small, queue) = device(few);
+    let message = Renderer::new(&Gpu::from_parts(&adapter, small, queue)).expect_err("too small").to_string();
+    for word in ["max_sampled_textures_per_shader_stage is 8", "Gpu::required_limits"] {
+        assert!(message.contains(word), "{message}");
+    }
+    // Two renderers on one device of an application.
+    let (shared, queue) = device(Gpu::required_limits(&adapter));
+    let shared = Gpu::from_parts(&adapter, shared, queue);
+    let scene = anime_heroine();
+    let view = View::framed(&scene, Framing::Face, 0.2, [64, 64]);
+    let mut renderers = [1, 2].map(|_| Renderer::new(&shared).expect("a renderer"));
+    let mut uploaded = renderers.each_mut().map(|r| r.upload(&scene).expect("an upload"));
+    let drawn = |(r, u): (&mut Renderer, &mut hikage::GpuScene)| r.render(u, &view).expect("a picture").pixels;
+    let pictures: Vec<_> = renderers.iter_mut().zip(&mut uploaded).map(drawn).collect();
+    assert!(pictures[0] == pictures[1], "another picture");
+}
+
+#[test]
+fn a_lost_device_says_so() {
+    let gpu = Gpu::headless(Some(&gpu().info().name)).expect("a device of its own");
+    let scene = ball();
+    let mut renderer = Renderer::new(&gpu).expect("a renderer");
+    let mut uploaded = renderer.upload(&scene).expect("an upload");
+    renderer.render(&mut uploaded, &view(64, 2.0)).expect("a picture");
+    gpu.device.destroy();
+    for result in [renderer.render(&mut uploaded, &view(64, 2.0)).map(|_| ()), renderer.upload(&scene).map(|_| ())] {
+        let error = result.expect_err("there is no device any more");
+        assert!(matches!(&error, Error::Gpu(m) if m.contains("lost")), "{error}");
+    }
+}

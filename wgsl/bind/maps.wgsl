@@ -1,0 +1,109 @@
+// Maps of shadows: those of the bangs on faces, and those of the key light.
+import package::bind::actor::actors;
+import package::bind::vertex::{Vertex, world_position};
+import package::lib::bangs::{BANGS_BLOCK, BANGS_TAPS, bangs_weight, esm_taps};
+import package::lib::shadow::{shadow_edge, shadow_place};
+
+@group(1) @binding(2) var bangs_map: texture_2d_array<f32>;
+// Nearest depth round each block of it.
+@group(1) @binding(3) var bangs_near: texture_2d_array<f32>;
+@group(1) @binding(4) var bangs_sampler: sampler;
+@group(1) @binding(5) var shadow_map: texture_depth_2d_array;
+@group(1) @binding(6) var shadow_sampler: sampler_comparison;
+
+// Layers of the map: what casts on the face, and lids with lashes on the eyes.
+const BANGS_LAYER: i32 = 0;
+const LIDS_LAYER: i32 = 1;
+
+// Place of a point of an actor, character space, in the map of its own bangs.
+fn bangs_from_character(actor: u32, position: vec3f) -> vec3f {
+    let a = &actors[actor];
+    let p = vec4f(position, 1.0);
+    return vec3f(dot(a.bangs_row_u, p), dot(a.bangs_row_v, p), dot(a.bangs_row_depth, p));
+}
+
+// The same of a point of the world.
+fn bangs_from_world(actor: u32, position: vec3f) -> vec3f {
+    let a = &actors[actor];
+    let p = vec4f(position, 1.0);
+    return vec3f(dot(a.bangs_world_row_u, p), dot(a.bangs_world_row_v, p), dot(a.bangs_world_row_depth, p));
+}
+
+// Place of a point of the world in the shadow map of the actor that a vertex belongs to. Actors scale evenly.
+fn shadow_from_world(v: Vertex, position: vec3f) -> vec3f {
+    let a = &actors[v.actor];
+    let d = position - world_position(v, a.shadow_middle);
+    let scale = a.shadow_scale / length(v.world_row_x.xyz);
+    return shadow_place(d, a.shadow_right, a.shadow_up, a.shadow_to_light, scale);
+}
+
+// The same for a receiver with its normal, which is moved towards the light; w is the layer.
+fn shadow_receiver(v: Vertex, position: vec3f, normal: vec3f) -> vec4f {
+    let a = &actors[v.actor];
+    let at = shadow_from_world(v, position);
+    // Most where the surface lies along the light.
+    let n_dot_l = dot(normal, a.shadow_to_light);
+    let along = sqrt(saturate(1.0 - n_dot_l * n_dot_l));
+    let moved = normal * along + a.shadow_to_light * 0.5;
+    let by = shadow_place(moved, a.shadow_right, a.shadow_up, a.shadow_to_light, 1.0) - 0.5;
+    return vec4f(at + by * a.shadow_bias, a.shadow_layer);
+}
+
+// Share of light that arrives there. What lies beyond the map is lit, and so is what the caller does not need (`wanted`).
+fn shadow_lit(actor: u32, at: vec4f, wanted: bool) -> f32 {
+    let layer = i32(round(at.w));
+    let spread = actors[actor].shadow_spread;
+    let is_outside = any(at.xy <= vec2f(0.0)) || any(at.xy >= vec2f(1.0)) || layer < 0;
+    // A count of 0 rather than a branch: software rasterizers walk both sides of branches, but leave loops early.
+    let corners = select(4, 0, is_outside || !wanted);
+    var lit = select(0.0, 4.0, corners == 0);
+    for (var i = 0; i < corners; i++) {
+        let offset = vec2f(f32(i % 2), f32(i / 2)) * 2.0 - 1.0;
+        lit += textureSampleCompareLevel(
+            shadow_map, shadow_sampler, at.xy + offset * spread, layer, at.z
+        );
+    }
+    // Where the corners agree, so does what lies between: most of a picture.
+    let agree = lit == 0.0 || lit == 4.0;
+    let others = select(5, 0, agree);
+    for (var i = 0; i < others; i++) {
+        // The middle of the three rows, then of the columns.
+        let offset = select(vec2f(f32(i) - 1.0, 0.0), vec2f(0.0, f32(i - 3) * 2.0 - 1.0), i >= 3);
+        lit += textureSampleCompareLevel(
+            shadow_map, shadow_sampler, at.xy + offset * spread, layer, at.z
+        );
+    }
+    return shadow_edge(lit / select(9.0, 4.0, agree));
+}
+
+// Share of light that a layer lets through to a place of the map. What lies beyond its border is lit, and so is what the
+// caller does not need (`wanted`).
+fn bangs_lit(actor: u32, at: vec3f, layer: i32, wanted: bool) -> f32 {
+    let hardness = actors[actor].bangs_hardness;
+    let bias = actors[actor].bangs_bias;
+    let side = i32(textureDimensions(bangs_map).x);
+    let block = clamp(vec2i(at.xy * f32(side)) / BANGS_BLOCK, vec2i(0), vec2i(textureDimensions(bangs_near)) - 1);
+    let nearest = textureLoad(bangs_near, block, layer, 0).r;
+    let is_outside = any(at.xy <= vec2f(0.0)) || any(at.xy >= vec2f(1.0));
+    // Where nothing hangs before it every tap would let all light through. A count of 0 rather than a branch: software
+    // rasterizers walk both sides of branches, but leave loops early.
+    let is_lit = is_outside || nearest + bias >= at.z;
+    let taps = select(BANGS_TAPS * BANGS_TAPS / 4, 0, is_lit || !wanted);
+    let p = at.xy * f32(side) - 0.5;
+    let first = vec2i(floor(p)) - 1;
+    let f = fract(p);
+    var lit = select(0.0, 1.0, taps == 0);
+    for (var i = 0; i < taps; i++) {
+        // Four texels about a corner: (0, 1), (1, 1), (1, 0), (0, 0). Those at the border stand for what lies beyond.
+        let x = i % (BANGS_TAPS / 2) * 2;
+        let y = i / (BANGS_TAPS / 2) * 2;
+        let corner = (vec2f(first + vec2i(x, y)) + 1.0) / f32(side);
+        let depth = textureGather(0, bangs_map, bangs_sampler, corner, layer);
+        let tap = esm_taps(depth, at.z, hardness, bias);
+        let across = vec2f(bangs_weight(x, f.x), bangs_weight(x + 1, f.x));
+        lit += bangs_weight(y, f.y) * dot(across, tap.wz) + bangs_weight(y + 1, f.y) * dot(across, tap.xy);
+    }
+    // What the map does not reach is lit, without a seam at its border.
+    let border = min(min(at.x, 1.0 - at.x), min(at.y, 1.0 - at.y));
+    return mix(1.0, lit, smoothstep(0.0, 0.1, border));
+}
