@@ -139,9 +139,28 @@ impl Gpu {
         let value = work();
         let faults = [pollster::block_on(validation.pop()), pollster::block_on(memory.pop())];
         match faults.into_iter().flatten().next() {
+            Some(_) if self.is_lost() => {
+                let message =
+                    "the device is lost: destroyed, or its driver was reset; please open another one and upload again";
+                Err(Error::Gpu(message.to_owned()))
+            }
             Some(error) => Err(Error::Gpu(error.to_string().replace('\n', " "))),
             None => Ok(value),
         }
+    }
+
+    /// Whether it makes nothing any more. Its callback for that belongs to the application.
+    fn is_lost(&self) -> bool {
+        let scope = self.device.push_error_scope(wgpu::ErrorFilter::Validation);
+        let probe = self.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("probe"),
+            size: wgpu::COPY_BUFFER_ALIGNMENT,
+            usage: wgpu::BufferUsages::COPY_SRC,
+            mapped_at_creation: true,
+        });
+        let is_lost = probe.get_mapped_range_mut(..).is_err();
+        pollster::block_on(scope.pop());
+        is_lost
     }
 
     /// Waits until all submitted work is done.
