@@ -58,7 +58,7 @@ impl Scene {
 impl Primitive {
     fn check(&self, of: &str, morphs: usize, joints: Option<usize>) -> Result<()> {
         let count = self.positions.len();
-        if self.indices.len() % 3 != 0 {
+        if !self.indices.len().is_multiple_of(3) {
             return fault(format!("{of}.indices"), format!("has {}; expected three a triangle", self.indices.len()));
         }
         index(format!("{of}.indices"), self.indices.iter().max().map(|i| *i as usize), count)?;
