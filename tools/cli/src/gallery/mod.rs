@@ -9,7 +9,7 @@ use glam::{Quat, Vec3};
 use hikage::motion::Stance;
 use hikage::picture::{encode_png, write_atomic};
 use hikage::scene::{Framing, HumanBone, Image, PunctualLight, Scene};
-use hikage::{Background, Gpu, GpuScene, Output, Renderer, View};
+use hikage::{Background, GpuScene, Output, Renderer, View};
 
 use crate::args::LookName;
 use crate::failure::Failure;
