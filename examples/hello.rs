@@ -2,7 +2,7 @@
 
 use std::{error::Error, path::Path};
 
-use hikage::{Gpu, Renderer, View, import, picture, scene::Framing};
+use hikage::{Actor, Gpu, Renderer, Stage, View, import, picture, scene::Framing};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let args: Vec<String> = std::env::args().collect();
@@ -10,9 +10,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     let scene = import::load(Path::new(model))?;
     let gpu = Gpu::headless(None)?;
     let mut renderer = Renderer::new(&gpu)?;
-    let mut character = renderer.upload(&scene)?;
+    let mut stage = Stage::of([Actor::new(&renderer.upload(&scene)?)]);
     let view = View::framed(&scene, Framing::Portrait, 0.4, [1024, 1024]);
-    let picture = renderer.render(&mut character, &view)?;
+    let picture = renderer.render(&mut stage, &view)?;
     picture::write_png(Path::new(out), &picture)?;
     Ok(())
 }

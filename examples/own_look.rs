@@ -6,7 +6,7 @@
 
 use hikage::material::{Section, TextureRef, register};
 use hikage::scene::Framing;
-use hikage::{Channel, Error, Gpu, Look, Renderer, View, import, picture};
+use hikage::{Actor, Channel, Error, Gpu, Look, Renderer, Stage, View, import, picture};
 
 hikage::section! {
     /// Ice that grows from below.
@@ -47,9 +47,9 @@ fn main() -> Result<(), Error> {
     }
     let gpu = Gpu::headless(None)?;
     let mut renderer = Renderer::new(&gpu)?;
-    let mut character = renderer.upload(&scene)?;
+    let mut stage = Stage::of([Actor::new(&renderer.upload(&scene)?)]);
     let view = View::framed(&scene, Framing::Full, 0.4, [768, 768]);
-    picture::write_png("frost.png", &renderer.render(&mut character, &view)?)?;
+    picture::write_png("frost.png", &renderer.render(&mut stage, &view)?)?;
     let channel = View { channel: Channel::Look("frost"), ..view };
-    picture::write_png("frost-channel.png", &renderer.render(&mut character, &channel)?)
+    picture::write_png("frost-channel.png", &renderer.render(&mut stage, &channel)?)
 }

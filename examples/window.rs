@@ -6,7 +6,7 @@ use std::{error::Error, path::Path, sync::Arc, time::Instant};
 
 use glam::{Quat, Vec3};
 use hikage::{
-    Background, Gpu, GpuScene, Output, Renderer, View,
+    Actor, Background, Gpu, Output, Renderer, Stage, View,
     color::Srgb,
     import,
     scene::{Camera, Framing, Scene},
@@ -40,7 +40,7 @@ struct Shown {
     config: wgpu::SurfaceConfiguration,
     gpu: Gpu,
     renderer: Renderer,
-    character: GpuScene,
+    stage: Stage,
     orbit: Orbit,
     start: Instant,
 }
@@ -89,6 +89,7 @@ impl Shown {
         }))?;
         let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
             required_limits: Gpu::required_limits(&adapter),
+            required_features: Gpu::wanted_features(&adapter),
             ..Default::default()
         }))?;
         let gpu = Gpu::from_parts(&adapter, device, queue);
@@ -100,14 +101,14 @@ impl Shown {
         config.format = formats.into_iter().find(wgpu::TextureFormat::is_srgb).unwrap_or(config.format);
         surface.configure(&gpu.device, &config);
         let mut renderer = Renderer::with_output(&gpu, Output { format: config.format, samples: 4 })?;
-        let character = renderer.upload(scene)?;
+        let stage = Stage::of([Actor::new(&renderer.upload(scene)?)]);
         let orbit = Orbit::around(scene);
-        Ok(Self { window, surface, config, gpu, renderer, character, orbit, start: Instant::now() })
+        Ok(Self { window, surface, config, gpu, renderer, stage, orbit, start: Instant::now() })
     }
 
     fn load(&mut self, path: &Path) -> Result<Scene, Box<dyn Error>> {
         let scene = import::load(path)?;
-        self.character = self.renderer.upload(&scene)?;
+        self.stage = Stage::of([Actor::new(&self.renderer.upload(&scene)?)]);
         self.orbit = Orbit::around(&scene);
         Ok(scene)
     }
@@ -118,7 +119,6 @@ impl Shown {
             size: [self.config.width, self.config.height],
             camera: Camera { eye: self.orbit.eye(), target, near, ..Camera::default() },
             background: Background::Color(Srgb([0x9f, 0xb4, 0xc7])),
-            time_s: self.start.elapsed().as_secs_f32(),
             ..View::default()
         }
     }
@@ -137,7 +137,9 @@ impl Shown {
         let target = frame.texture.create_view(&wgpu::TextureViewDescriptor::default());
         let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         let view = self.view();
-        self.renderer.encode_frame(&mut encoder, &mut self.character, &view, &target)?;
+        self.stage.time_s = self.start.elapsed().as_secs_f32();
+        self.renderer.prepare(&mut encoder, &mut self.stage)?;
+        self.renderer.draw(&mut encoder, &self.stage, &view, &target)?;
         self.gpu.queue.submit([encoder.finish()]);
         self.window.pre_present_notify();
         self.gpu.queue.present(frame);

@@ -43,11 +43,13 @@ pub mod picture;
 pub mod render;
 pub mod scene;
 pub mod sdf;
+mod stage;
 
 pub use error::{Error, Result};
 pub use gpu::{AdapterInfo, Gpu};
 pub use look::{Look, LookFile};
-pub use render::{Background, Channel, GpuMemory, GpuScene, Output, Renderer, View, shaders};
+pub use render::{Background, Channel, Character, GpuMemory, Output, Renderer, View, shaders};
+pub use stage::{Actor, Stage};
 
 /// What macros reach.
 #[doc(hidden)]

@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use serde::Serialize;
 
-use super::{BenchOptions, Stage, milliseconds, spread};
+use super::{Bench, BenchOptions, milliseconds, spread};
 use crate::material::{Material, all};
 use crate::{Gpu, Result, scene::Scene};
 
@@ -38,7 +38,7 @@ const SCENE_LOOKS: &[(&str, SceneOff)] = &[
 /// # Errors
 /// Those of [`run`](super::run).
 pub fn costs(gpu: &Gpu, scene: &Scene, plain: &Scene, options: &BenchOptions) -> Result<Vec<Cost>> {
-    let mut with = Stage::new(gpu, scene, options)?;
+    let mut with = Bench::new(gpu, scene, options)?;
     let mut list = vec![cost(gpu, options, &mut with, plain, "all", scene.materials.len())?];
     // Lines in the colours of surfaces cost more than lines do.
     let tint = ("outline tint", untint as fn(&mut Material, &str) -> bool);
@@ -66,12 +66,12 @@ fn untint(material: &mut Material, _: &str) -> bool {
 fn cost(
     gpu: &Gpu,
     options: &BenchOptions,
-    with: &mut Stage<'_>,
+    with: &mut Bench,
     other: &Scene,
     look: &str,
     materials: usize,
 ) -> Result<Cost> {
-    let mut without = Stage::new(gpu, other, options)?;
+    let mut without = Bench::new(gpu, other, options)?;
     let (mut all, mut rest) = (Vec::new(), Vec::new());
     // The first ones warm up.
     for frame in 0..=options.frames {

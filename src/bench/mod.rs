@@ -8,11 +8,11 @@ pub use costs::{Cost, costs};
 
 use std::time::{Duration, Instant};
 
+use glam::Vec3;
 use serde::Serialize;
 
 use crate::{
-    AdapterInfo, Error, Gpu, GpuMemory, GpuScene, Output, Renderer, Result, View,
-    motion::Pose,
+    Actor, AdapterInfo, Character, Error, Gpu, GpuMemory, Output, Renderer, Result, Stage, View,
     render::{Clock, Shown, Timed, color_target, pass::floor::FloorPass},
     scene::Scene,
 };
@@ -22,6 +22,8 @@ use crate::{
 pub struct BenchOptions {
     /// The picture.
     pub view: View,
+    /// Characters, side by side, each in a pose of its own. Range 1... Default: 1.
+    pub actors: usize,
     /// Samples a pixel: 1 or 4. Default: 4.
     pub samples: u32,
     /// Frames that count; as many floor frames are timed between them. Range 1... Default: 20.
@@ -30,7 +32,7 @@ pub struct BenchOptions {
 
 impl Default for BenchOptions {
     fn default() -> Self {
-        Self { view: View::default(), samples: 4, frames: 20 }
+        Self { view: View::default(), actors: 1, samples: 4, frames: 20 }
     }
 }
 
@@ -64,7 +66,7 @@ pub struct BenchReport {
     /// Samples a pixel.
     pub samples: u32,
     /// Characters.
-    pub instances: usize,
+    pub actors: usize,
     /// Frames that count.
     pub frames: usize,
     /// A whole frame: pose, deform, passes, until the adapter is done.
@@ -88,49 +90,52 @@ pub struct BenchReport {
 }
 
 const TIMEOUT: Duration = Duration::from_secs(120);
-/// A scene that is ready to be timed: frames and floor frames with the same triangles, targets and pose.
-pub struct Stage<'a> {
+/// A scene that is ready to be timed: frames and floor frames with the same triangles, targets and poses.
+pub struct Bench {
     gpu: Gpu,
     renderer: Renderer,
-    uploaded: GpuScene,
-    scene: &'a Scene,
-    /// Two poses that take turns; nobody could tell them apart.
-    poses: [Pose; 2],
+    character: Character,
+    stage: Stage,
     view: View,
     target: wgpu::TextureView,
     floor: FloorPass,
     clock: Clock,
+    frame: u32,
 }
 
-impl<'a> Stage<'a> {
+impl Bench {
     /// Uploads a scene.
     ///
     /// # Errors
     /// [`Error::Argument`] for options out of their domain; [`Error::Gpu`] where the adapter fails.
-    pub fn new(gpu: &Gpu, scene: &'a Scene, options: &BenchOptions) -> Result<Self> {
+    pub fn new(gpu: &Gpu, scene: &Scene, options: &BenchOptions) -> Result<Self> {
         options.view.check()?;
-        if options.frames == 0 {
-            return Err(Error::Argument { what: "frames".to_owned(), message: "is 0; expected at least 1".to_owned() });
+        for (what, count) in [("frames", options.frames), ("actors", options.actors)] {
+            if count == 0 {
+                return Err(Error::Argument { what: what.to_owned(), message: "is 0; expected at least 1".to_owned() });
+            }
         }
         let output = Output { samples: options.samples, ..Output::default() };
         let mut renderer = Renderer::with_output(gpu, output)?;
-        let mut uploaded = renderer.upload(scene)?;
+        let character = renderer.upload(scene)?;
         gpu.wait(TIMEOUT)?;
-        let rest = Pose::rest(scene);
-        let mut other = rest.clone();
-        for local in &mut other.locals {
-            local.translation.x += 1e-6;
-        }
+        // In rows behind each other, a metre apart.
+        let columns = (options.actors as f64).sqrt().ceil() as usize;
+        let place = |i: usize| {
+            let (column, row) = (i % columns, i / columns);
+            Vec3::new(column as f32 - ((columns - 1) / 2) as f32, 0.0, -(row as f32))
+        };
+        let stage = Stage::of((0..options.actors).map(|i| Actor::new(&character).at(place(i), 0.0)));
         Ok(Self {
             gpu: gpu.clone(),
-            floor: renderer.floor(&mut uploaded)?,
+            floor: renderer.floor(&stage)?,
             target: color_target(gpu, options.view.size, output),
             clock: Clock::new(gpu),
-            poses: [rest, other],
             view: options.view.clone(),
+            frame: 0,
             renderer,
-            uploaded,
-            scene,
+            character,
+            stage,
         })
     }
 
@@ -151,12 +156,19 @@ impl<'a> Stage<'a> {
     }
 
     fn draw(&mut self, is_frame: bool) -> Result<()> {
-        let Self { gpu, renderer, uploaded, scene, poses, view, target, floor, clock } = self;
-        poses.swap(0, 1);
-        uploaded.set_pose(scene, &poses[0])?;
+        let Self { gpu, renderer, stage, view, target, floor, clock, frame, .. } = self;
+        *frame += 1;
+        // Every frame another pose; nobody could tell them apart.
+        let moved = (*frame % 2) as f32 * 1e-6;
+        for (i, actor) in stage.actors.iter_mut().enumerate() {
+            for (local, node) in actor.pose.locals.iter_mut().zip(&actor.character.scene().nodes) {
+                local.translation.x = node.transform.translation.x + moved + i as f32 * 1e-7;
+            }
+        }
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("bench") });
         let shown = if is_frame { Shown::Picture } else { Shown::Floor(floor) };
-        renderer.encode(&mut encoder, uploaded, view, target, shown, clock)?;
+        renderer.encode_shared(&mut encoder, stage, is_frame, clock)?;
+        renderer.encode(&mut encoder, stage, view, target, shown, clock)?;
         clock.resolve(&mut encoder);
         gpu.queue.submit([encoder.finish()]);
         gpu.wait(TIMEOUT)
@@ -169,34 +181,34 @@ impl<'a> Stage<'a> {
 /// [`Error::Argument`] for options out of their domain; [`Error::Gpu`] where the adapter fails.
 pub fn run(gpu: &Gpu, scene: &Scene, options: &BenchOptions) -> Result<BenchReport> {
     let start = Instant::now();
-    let mut stage = Stage::new(gpu, scene, options)?;
+    let mut bench = Bench::new(gpu, scene, options)?;
     let upload_ms = milliseconds(start);
     let start = Instant::now();
-    stage.frame()?;
+    bench.frame()?;
     let first_frame_ms = milliseconds(start);
     // Warms the floor up as the frame was.
-    stage.floor()?;
+    bench.floor()?;
 
     let (mut frames, mut floors) = (Vec::new(), Vec::new());
     let mut passes = vec![Vec::new(); Timed::ALL.len()];
     for _ in 0..options.frames {
         let start = Instant::now();
-        stage.frame()?;
+        bench.frame()?;
         frames.push(milliseconds(start));
-        for (list, ms) in passes.iter_mut().zip(stage.clock.read(gpu)?) {
+        for (list, ms) in passes.iter_mut().zip(bench.clock.read(gpu)?) {
             list.extend(ms);
         }
         let start = Instant::now();
-        stage.floor()?;
+        bench.floor()?;
         floors.push(milliseconds(start));
-        stage.clock.read(gpu)?;
+        bench.clock.read(gpu)?;
     }
     let (frame_ms, floor_ms) = (spread(frames), spread(floors));
     Ok(BenchReport {
         adapter: gpu.info().clone(),
         size: options.view.size,
         samples: options.samples,
-        instances: options.view.instances.len(),
+        actors: options.actors,
         frames: options.frames,
         frame_ms,
         floor_ms,
@@ -207,9 +219,9 @@ pub fn run(gpu: &Gpu, scene: &Scene, options: &BenchOptions) -> Result<BenchRepo
             .filter(|(_, list)| !list.is_empty())
             .map(|(pass, list)| PassTime { name: pass.name().to_owned(), ms: spread(list) })
             .collect(),
-        draws: stage.uploaded.draw_count(),
-        triangles: stage.uploaded.triangle_count() * options.view.instances.len(),
-        memory: stage.uploaded.memory(),
+        draws: bench.stage.draw_count(),
+        triangles: bench.character.triangle_count() * options.actors,
+        memory: bench.character.memory(),
         upload_ms,
         first_frame_ms,
     })

@@ -3,7 +3,6 @@
 use glam::Vec3;
 
 use super::geometry::{Geometry, Part};
-use super::gpu_scene::GpuScene;
 use super::material::Composition;
 use super::pass::{
     DEPTH_STENCIL_FORMAT, Mark, Picture, Sight, bangs_shadow, eyes_through, fluff, glow, opaque, outline, prepass,
@@ -15,6 +14,7 @@ use super::{Output, uv_metric};
 use crate::material::{AlphaMode, Material, Surroundings};
 use crate::motion::Driven;
 use crate::scene::{Role, Scene};
+use crate::stage::body::Body;
 
 /// One draw: a range of indices under one material.
 #[derive(Debug)]
@@ -205,73 +205,69 @@ pub(super) fn through_order(draws: &[Draw]) -> Vec<usize> {
     order
 }
 
-impl GpuScene {
-    /// Sorts the blended draws: those that write depth first, then by queue offset, then far before near (MToon,
-    /// "Render Queue"); equal ones keep the order of the file. `eye` is in character space.
-    pub(crate) fn sort_transparent(&mut self, eye: Vec3) {
-        let Self { draws, transparent_order, .. } = self;
-        transparent_order.clear();
-        transparent_order.extend((0..draws.len()).filter(|&i| draws[i].blend));
-        let depth = |i: usize| draws[i].center.distance_squared(eye);
-        transparent_order.sort_unstable_by(|&a, &b| {
-            let (x, y) = (&draws[a], &draws[b]);
-            let order = (!x.write_depth, x.queue_offset).cmp(&(!y.write_depth, y.queue_offset));
-            order.then(depth(b).total_cmp(&depth(a))).then(a.cmp(&b))
-        });
+/// Blended draws of all bodies, by body and draw: those that write depth first, then by queue offset, then far before near
+/// (MToon, "Render Queue"); equal ones keep the order of actors and files.
+pub(crate) fn transparent_order(bodies: &[Body], eye: Vec3) -> Vec<(usize, usize)> {
+    let mut order: Vec<((bool, i32), f32, (usize, usize))> = Vec::new();
+    for (of, body) in bodies.iter().enumerate() {
+        // In character space, where distances of one body compare alike.
+        let eye = body.world.inverse().transform_point3(eye);
+        let scale = body.world.x_axis.truncate().length_squared();
+        for (index, draw) in body.data().draws.iter().enumerate().filter(|(_, draw)| draw.blend) {
+            let depth = draw.center.distance_squared(eye) * scale;
+            order.push(((!draw.write_depth, draw.queue_offset), depth, (of, index)));
+        }
+    }
+    order.sort_by(|(a, x, i), (b, y, j)| a.cmp(b).then(y.total_cmp(x)).then(i.cmp(j)));
+    order.into_iter().map(|(_, _, place)| place).collect()
+}
+
+/// What every pass over surfaces binds and draws.
+#[derive(Clone, Copy)]
+pub(crate) struct Actors<'a> {
+    pub bodies: &'a [Body],
+    /// What instances stand for.
+    pub instances: &'a wgpu::Buffer,
+    /// Group 0.
+    pub frame: &'a wgpu::BindGroup,
+}
+
+impl Actors<'_> {
+    /// Binds what the draws of a body read.
+    pub fn bind(&self, pass: &mut wgpu::RenderPass<'_>, body: &Body) {
+        self.bind_group(pass, body, 0);
+    }
+
+    /// The same while maps of shadows are drawn.
+    pub fn bind_without_maps(&self, pass: &mut wgpu::RenderPass<'_>, body: &Body) {
+        self.bind_group(pass, body, 1);
+    }
+
+    fn bind_group(&self, pass: &mut wgpu::RenderPass<'_>, body: &Body, which: usize) {
+        pass.set_bind_group(0, self.frame, &[]);
+        if let Some(groups) = &body.groups {
+            pass.set_bind_group(1, &groups[which], &[]);
+        }
+        let data = body.data();
+        pass.set_vertex_buffer(0, data.static_vertices.slice(..));
+        pass.set_vertex_buffer(1, self.instances.slice(..));
+        pass.set_index_buffer(data.indices.slice(..), wgpu::IndexFormat::Uint32);
     }
 }
 
-/// What every geometry pass binds before it draws.
-pub(crate) fn bind_scene(
+/// Draws a draw of a body, once for each instance.
+pub(crate) fn record(
     pass: &mut wgpu::RenderPass<'_>,
-    scene: &GpuScene,
-    frame: &wgpu::BindGroup,
-    character: &wgpu::BindGroup,
-) {
-    pass.set_bind_group(0, frame, &[]);
-    pass.set_bind_group(1, character, &[]);
-    pass.set_vertex_buffer(0, scene.static_vertices.slice(..));
-    pass.set_vertex_buffer(1, scene.crowd.instances.slice(..));
-    pass.set_index_buffer(scene.indices.slice(..), wgpu::IndexFormat::Uint32);
-}
-
-/// Draws `draw`, once for each instance.
-pub(crate) fn record(pass: &mut wgpu::RenderPass<'_>, scene: &GpuScene, draw: &Draw, drawn: &Drawn) {
-    record_instances(pass, scene, draw, drawn, 0..scene.instance_rows.len() as u32);
-}
-
-/// [`record`] of some instances.
-pub(crate) fn record_instances(
-    pass: &mut wgpu::RenderPass<'_>,
-    scene: &GpuScene,
+    body: &Body,
     draw: &Draw,
     drawn: &Drawn,
     instances: std::ops::Range<u32>,
 ) {
-    bind(pass, scene, drawn);
-    pass.draw_indexed(draw.indices.clone(), 0, instances);
-}
-
-fn bind(pass: &mut wgpu::RenderPass<'_>, scene: &GpuScene, drawn: &Drawn) {
     pass.set_pipeline(&drawn.pipeline);
-    if let Some(group) = drawn.group {
-        pass.set_bind_group(2, &scene.groups[group].group, &[]);
+    if let Some(bound) = &drawn.bound {
+        let data = body.data();
+        let edited = body.edits().group(&data.made_by.0, &data.looks, bound);
+        pass.set_bind_group(2, edited.as_ref().unwrap_or(&bound.group), &[]);
     }
-}
-
-/// [`record`] with the stencil's reference for `mark`, which holds the number of the character. A crowd larger than there
-/// are numbers shares each among neighbours.
-pub(crate) fn record_marked(pass: &mut wgpu::RenderPass<'_>, scene: &GpuScene, draw: &Draw, drawn: &Drawn, mark: Mark) {
-    bind(pass, scene, drawn);
-    let instances = scene.instance_rows.len() as u32;
-    let block = if mark.is_numbered() {
-        instances.div_ceil(Mark::NUMBERS).max(1)
-    } else {
-        instances.max(1)
-    };
-    for number in 0..instances.div_ceil(block) {
-        pass.set_stencil_reference(mark.reference(number));
-        let first = number * block;
-        pass.draw_indexed(draw.indices.clone(), 0, first..(first + block).min(instances));
-    }
+    pass.draw_indexed(draw.indices.clone(), 0, instances);
 }

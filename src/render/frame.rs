@@ -5,6 +5,7 @@ use glam::{Mat4, Vec3, Vec4};
 use super::layout::{Block, Filled};
 use super::pass::{bangs_shadow::BangsMap, shadow::ShadowRows};
 use super::{Background, View};
+use crate::Stage;
 use crate::scene::{EyesThrough, MAX_PUNCTUAL_LIGHTS, Post, PunctualLight, ToneCurve};
 
 /// `Frame` of `wgsl/bind/frame.wgsl`.
@@ -22,19 +23,19 @@ pub(crate) fn post_numbers() -> Filled {
     Filled::of("pass/post", "PostNumbers")
 }
 
-/// Writes the numbers of a view.
-pub(crate) fn put_view(gpu: &mut Block<'_>, view: &View) {
+/// Writes the numbers of a view of a stage.
+pub(crate) fn put_view(gpu: &mut Block<'_>, view: &View, stage: &Stage) {
     let aspect = view.size[0] as f32 / view.size[1] as f32;
     let camera = &view.camera;
     let view_from_world = camera.view_from_world();
-    let lights = &view.lights;
+    let lights = &stage.lights;
     let directional = &lights.directional;
     let punctual: [_; MAX_PUNCTUAL_LIGHTS] =
         std::array::from_fn(|i| lights.punctual.get(i).map_or([[0.0; 4]; 3], punctual));
     gpu.put("clip_from_world", (camera.clip_from_view(aspect) * view_from_world).to_cols_array_2d());
     gpu.put("view_from_world", view_from_world.to_cols_array_2d());
     gpu.put("eye", camera.eye.to_array());
-    gpu.put("time_s", view.time_s);
+    gpu.put("time_s", stage.time_s);
     gpu.put("to_light", directional.to_light.normalize_or(Vec3::Z).to_array());
     gpu.put("aspect", aspect);
     gpu.put("light_color", directional.color.scaled(directional.intensity).0);
@@ -43,7 +44,7 @@ pub(crate) fn put_view(gpu: &mut Block<'_>, view: &View) {
     gpu.put("near", camera.near);
     gpu.put("ambient_ground", lights.ambient.ground.0);
     gpu.put("coolness", lights.coolness());
-    gpu.put("px_per_m", view.px_per_m());
+    gpu.put("px_per_m", view.px_per_m(stage.places()));
     gpu.put("punctual", punctual);
 }
 

@@ -1,12 +1,14 @@
 //! The materials of a scene on the GPU: bytes, textures, and the groups that shaders bind of them.
 
-use std::sync::Arc;
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, PoisonError};
 
+use super::bind;
 use super::material::{self, Composition, Source};
 use super::shaders::{BindingKind, Places};
 use super::textures::TextureSet;
 use super::uploads::Uploads;
-use super::variants::BoundLayout;
+use super::variants::{Bound, BoundLayout};
 use crate::material::{Material, Surroundings};
 use crate::motion::{Driven, Pose};
 use crate::scene::Scene;
@@ -36,10 +38,6 @@ pub(crate) struct Looks {
     pub(super) metres_per_uv: Vec<[f32; 2]>,
     pub(super) driven: Vec<Driven>,
     pub(super) self_shadow: bool,
-    /// Materials that an expression has changed.
-    pub(super) posed: Vec<usize>,
-    /// Bytes of materials that a pose has changed since the last frame.
-    pub(super) waiting: Vec<(usize, Vec<u8>)>,
 }
 
 #[derive(Debug)]
@@ -49,39 +47,10 @@ pub(super) struct BoundTexture {
     pub(super) sampler: wgpu::Sampler,
 }
 
-/// Group 2 of a material for shaders that bind the same of it.
-#[derive(Debug)]
-pub(crate) struct MaterialGroup {
-    pub(super) material: usize,
-    pub(super) layout: Arc<BoundLayout>,
-    pub group: wgpu::BindGroup,
-}
-
 impl Looks {
     /// Bytes of a material.
     pub fn bytes(&self, index: usize, material: &Material) -> Result<Vec<u8>> {
         material::bytes(&self.places, &self.surroundings(index, material))
-    }
-
-    /// Takes the materials that a pose changes, and those that it changes no more; whether there are any.
-    pub fn pose(&mut self, pose: &Pose) -> bool {
-        let changed: Vec<usize> = self.posed.iter().chain(pose.materials.keys()).copied().collect();
-        for &index in &changed {
-            let Some(source) = self.sources.get(index) else { continue };
-            let material = pose.materials.get(&index).unwrap_or(source).clone().clamped();
-            // The upload has shown that its bytes can be written.
-            self.waiting.extend(self.bytes(index, &material).ok().map(|bytes| (index, bytes)));
-        }
-        self.posed.clear();
-        self.posed.extend(pose.materials.keys());
-        !changed.is_empty()
-    }
-
-    /// Sends the bytes of materials that a pose has changed.
-    pub fn send(&mut self, uploads: &mut Uploads, encoder: &mut wgpu::CommandEncoder) {
-        for (index, bytes) in self.waiting.drain(..) {
-            uploads.write(encoder, &self.numbers, index as u64 * self.stride, &bytes);
-        }
     }
 
     pub fn surroundings<'a>(&'a self, index: usize, material: &'a Material) -> Surroundings<'a> {
@@ -94,21 +63,29 @@ impl Looks {
         }
     }
 
-    /// Group 2 of a material, by what a shader binds.
-    pub fn group(&self, gpu: &Gpu, material: usize, layout: &BoundLayout) -> wgpu::BindGroup {
+    /// Group 2 of a material, by what a shader binds: with these numbers, and with another base texture where there is one.
+    pub fn group(
+        &self,
+        gpu: &Gpu,
+        material: usize,
+        layout: &BoundLayout,
+        numbers: &wgpu::Buffer,
+        base: Option<&wgpu::TextureView>,
+    ) -> wgpu::BindGroup {
         let texture = |name: &str| self.textures[material].iter().find(|t| t.name == name);
+        // Where lit and shade share their texture, its place serves both.
+        let view = |name: &str, white: usize| {
+            let own = texture(name).map_or(&self.white[white], |t| &t.view);
+            wgpu::BindingResource::TextureView(base.filter(|_| name == "base_texture").unwrap_or(own))
+        };
         let resource = |name: &str, kind| match kind {
             BindingKind::Numbers => wgpu::BindingResource::Buffer(wgpu::BufferBinding {
-                buffer: &self.numbers,
+                buffer: numbers,
                 offset: material as u64 * self.stride,
                 size: wgpu::BufferSize::new(self.places.size as u64),
             }),
-            BindingKind::Texture => {
-                wgpu::BindingResource::TextureView(texture(name).map_or(&self.white[0], |t| &t.view))
-            }
-            BindingKind::TextureArray => {
-                wgpu::BindingResource::TextureView(texture(name).map_or(&self.white[1], |t| &t.view))
-            }
+            BindingKind::Texture => view(name, 0),
+            BindingKind::TextureArray => view(name, 1),
             BindingKind::Sampler => wgpu::BindingResource::Sampler(
                 texture(name.trim_end_matches("_sampler")).map_or(&self.default_sampler, |t| &t.sampler),
             ),
@@ -123,6 +100,77 @@ impl Looks {
             layout: &layout.group,
             entries: &entries,
         })
+    }
+}
+
+/// What of its materials one actor has otherwise.
+#[derive(Debug, Default)]
+pub(crate) struct Edits {
+    /// Bytes of all materials, made at the first change.
+    numbers: Option<wgpu::Buffer>,
+    /// Materials that a pose has changed.
+    posed: Vec<usize>,
+    /// Bytes of materials that have changed since the last frame.
+    waiting: Vec<(usize, Vec<u8>)>,
+    /// Other base textures, by material.
+    bases: HashMap<usize, wgpu::TextureView>,
+    /// Groups with these, by material and layout, made when they are first drawn with.
+    groups: Mutex<Vec<Bound>>,
+}
+
+impl Edits {
+    /// Takes the materials that a pose changes, and those that it changes no more; whether there are any.
+    pub fn pose(&mut self, looks: &Looks, pose: &Pose) -> bool {
+        let changed: Vec<usize> = self.posed.iter().chain(pose.materials.keys()).copied().collect();
+        for &index in &changed {
+            let Some(source) = looks.sources.get(index) else { continue };
+            let material = pose.materials.get(&index).unwrap_or(source).clone().clamped();
+            // The upload has shown that its bytes can be written.
+            self.waiting.extend(looks.bytes(index, &material).ok().map(|bytes| (index, bytes)));
+        }
+        self.posed.clear();
+        self.posed.extend(pose.materials.keys());
+        !changed.is_empty()
+    }
+
+    /// Shows another base texture of a material.
+    pub fn set_base(&mut self, material: usize, view: wgpu::TextureView) {
+        self.bases.insert(material, view);
+        self.groups.get_mut().unwrap_or_else(PoisonError::into_inner).retain(|g| g.material != material);
+    }
+
+    /// Sends the bytes of materials that have changed.
+    pub fn send(&mut self, gpu: &Gpu, looks: &Looks, uploads: &mut Uploads, encoder: &mut wgpu::CommandEncoder) {
+        if self.waiting.is_empty() {
+            return;
+        }
+        let numbers = self.numbers.get_or_insert_with(|| {
+            let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
+            let copy = bind::buffer(gpu, "materials of an actor", looks.numbers.size(), usage);
+            encoder.copy_buffer_to_buffer(&looks.numbers, 0, &copy, 0, copy.size());
+            self.groups.get_mut().unwrap_or_else(PoisonError::into_inner).clear();
+            copy
+        });
+        for (index, bytes) in self.waiting.drain(..) {
+            uploads.write(encoder, numbers, index as u64 * looks.stride, &bytes);
+        }
+    }
+
+    /// The group of a material with its changes; `None` where it has none.
+    pub fn group(&self, gpu: &Gpu, looks: &Looks, bound: &Bound) -> Option<wgpu::BindGroup> {
+        let base = self.bases.get(&bound.material);
+        if self.numbers.is_none() && base.is_none() {
+            return None;
+        }
+        let mut groups = self.groups.lock().unwrap_or_else(PoisonError::into_inner);
+        let is_it = |g: &&Bound| g.material == bound.material && Arc::ptr_eq(&g.layout, &bound.layout);
+        if let Some(known) = groups.iter().find(is_it) {
+            return Some(known.group.clone());
+        }
+        let numbers = self.numbers.as_ref().unwrap_or(&looks.numbers);
+        let group = looks.group(gpu, bound.material, &bound.layout, numbers, base);
+        groups.push(Bound { group: group.clone(), ..bound.clone() });
+        Some(group)
     }
 }
 

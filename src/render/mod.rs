@@ -1,16 +1,16 @@
 //! The renderer: a frame as one list of calls.
 
-mod bind;
+pub(crate) mod bind;
+mod character;
 pub(crate) mod check_section;
 mod check_wgsl;
 mod clock;
 pub(crate) mod draw_list;
-mod frame;
-mod geometry;
-mod gpu_scene;
+pub(crate) mod frame;
+pub(crate) mod geometry;
 pub(crate) mod layout;
-mod looks;
-mod made;
+pub(crate) mod looks;
+pub(crate) mod made;
 pub(crate) mod material;
 pub(crate) mod pass;
 mod readback;
@@ -18,10 +18,10 @@ pub mod shaders;
 mod targets;
 mod textures;
 mod upload;
-mod uploads;
+pub(crate) mod uploads;
 mod uv_metric;
 mod variants;
-mod vertex;
+pub(crate) mod vertex;
 mod view;
 
 #[cfg(test)]
@@ -29,21 +29,25 @@ mod tests;
 
 use std::time::Duration;
 
-pub use gpu_scene::{GpuMemory, GpuScene};
+pub use character::{Character, GpuMemory};
 pub use view::{Background, Channel, View};
 
+pub(crate) use character::CharacterData;
 pub(crate) use clock::{Clock, Timed};
 
 use crate::color::Srgb;
 use crate::gpu::MAX_TEXTURE_SIDE;
 use crate::scene::{Image, Post};
-use crate::{Error, Gpu, Result};
+use crate::stage::body::Bodies;
+use crate::{Error, Gpu, Result, Stage};
+use character::Shown as Drawables;
+use draw_list::Actors;
 use frame::{frame_numbers, put_view};
 use layout::Filled;
 use pass::bangs_near::BangsNearPass;
 use pass::bangs_shadow::{self, BangsShadowInputs};
 use pass::bloom::{BloomChain, BloomInputs, BloomPass};
-use pass::deform::{DeformInputs, DeformPass};
+use pass::deform::DeformPass;
 use pass::floor::FloorPass;
 use pass::glow::{self, GlowInputs};
 use pass::post::{PostInputs, PostPass};
@@ -52,6 +56,7 @@ use pass::shadow::{self, ShadowInputs};
 use pass::{HDR_FORMAT, Picture, Sight, eyes_through, fluff, opaque, outline, transparent};
 use shaders::Shaders;
 use targets::{ColorTargets, PrepassTargets};
+use upload::EmptyMaps;
 use uploads::Uploads;
 use variants::Variants;
 use wgpu::BindingResource;
@@ -85,6 +90,7 @@ pub struct Renderer {
     bangs_near: Option<BangsNearPass>,
     bloom: Option<BloomPass>,
     post: Option<PostPass>,
+    empty_maps: EmptyMaps,
     uploads: Uploads,
     frame_numbers: Filled,
     frame_uniform: wgpu::Buffer,
@@ -118,12 +124,17 @@ pub(crate) enum Shown<'a> {
 
 impl<'a> Shown<'a> {
     /// What its shaders are made for.
-    fn sight(self, view: &View) -> Sight<'a> {
+    fn sight(self, stage: &Stage) -> Sight<'a> {
         let channel = match self {
             Self::Channel(channel) => Some(channel),
             Self::Picture | Self::Floor(_) => None,
         };
-        Sight { channel, punctual: !view.lights.punctual.is_empty() }
+        Sight { channel, punctual: !stage.lights.punctual.is_empty(), hdr: self.post(stage).is_some() }
+    }
+
+    /// What is done to the whole of it.
+    fn post(self, stage: &Stage) -> Option<Post> {
+        stage.post.filter(|_| matches!(self, Self::Picture))
     }
 }
 
@@ -165,6 +176,7 @@ impl Renderer {
                 bangs_near: None,
                 bloom: None,
                 post: None,
+                empty_maps: EmptyMaps::new(gpu),
                 uploads: Uploads::new(gpu),
                 frame_numbers,
                 frame_uniform,
@@ -189,33 +201,36 @@ impl Renderer {
     }
 
     /// What draws the floor of benches.
-    pub(crate) fn floor(&self, scene: &mut GpuScene) -> Result<FloorPass> {
-        FloorPass::new(&self.variants, &Picture::new(self.gpu(), self.output, false, Sight::default()), scene)
+    pub(crate) fn floor(&self, stage: &Stage) -> Result<FloorPass> {
+        FloorPass::new(&self.variants, &Picture::new(self.gpu(), self.output, Sight::default()), stage)
     }
 
-    /// Renders a view and reads it back: sRGB, straight alpha, whatever the [`Output`]'s format.
+    /// Renders a view of a stage and reads it back: sRGB, straight alpha, whatever the [`Output`]'s format.
     ///
     /// # Errors
-    /// [`Error::Argument`] for a view out of its domain, a scene of another device or output, and for a format that is neither
-    /// RGBA nor BGRA with 8 bits nor floats; [`Error::Gpu`] where the adapter fails or does not answer.
-    pub fn render(&mut self, scene: &mut GpuScene, view: &View) -> Result<Image> {
+    /// [`Error::Argument`] for a view or a stage out of its domain, a character of another device or output, and for a format
+    /// that is neither RGBA nor BGRA with 8 bits nor floats; [`Error::Gpu`] where the adapter fails or does not answer.
+    pub fn render(&mut self, stage: &mut Stage, view: &View) -> Result<Image> {
         view.check()?;
-        self.owns(scene)?;
         readback::check(self.output.format)?;
         let gpu = self.gpu().clone();
         gpu.scoped(|| {
             let shown = match view.channel {
                 Channel::Final => Shown::Picture,
                 Channel::Look(channel) => Shown::Channel(channel),
-                _ => return self.render_geometry(scene, view),
+                _ => return self.render_geometry(stage, view),
             };
             let texture = match self.picture_target.take() {
                 Some(t) if [t.width(), t.height()] == view.size => t,
-                _ => targets::texture(&gpu, "picture", view.size, 1, self.output.format, wgpu::TextureUsages::COPY_SRC),
+                _ => {
+                    let copied = wgpu::TextureUsages::COPY_SRC;
+                    targets::texture(&gpu, "picture", view.size, 1, self.output.format, copied)
+                }
             };
             let mut encoder =
                 gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
-            self.encode(&mut encoder, scene, view, &targets::view(&texture), shown, &Clock::off())?;
+            self.prepare(&mut encoder, stage)?;
+            self.encode(&mut encoder, stage, view, &targets::view(&texture), shown, &Clock::off())?;
             gpu.queue.submit([encoder.finish()]);
             let texels = readback::read_texels(&gpu, &texture, FRAME_TIMEOUT)?;
             self.picture_target = Some(texture);
@@ -223,41 +238,33 @@ impl Renderer {
         })?
     }
 
-    /// Encodes a view into `target`, which has the format of this renderer's [`Output`], the size of the view, and one
-    /// sample a pixel. The picture has premultiplied alpha. The application submits. The view's channel does not count.
+    /// Encodes what all views of a frame share: poses, and maps of shadows; only where something has changed. Once a frame,
+    /// before [`Renderer::draw`].
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for a place, a pose or a light that is none, or one of another scene, and for a character of another
+    /// device or output; the message names the actor.
+    pub fn prepare(&mut self, encoder: &mut wgpu::CommandEncoder, stage: &mut Stage) -> Result<()> {
+        self.encode_shared(encoder, stage, true, &Clock::off())
+    }
+
+    /// Encodes a view of a stage that is prepared into `target`, which has the format of this renderer's [`Output`], the size
+    /// of the view, and one sample a pixel. The picture has premultiplied alpha. The application submits. The view's channel
+    /// does not count.
     ///
     /// # Errors
     /// [`Error::Argument`] for a view out of its domain, a target of another size, format or number of samples than the
-    /// view and the [`Output`] have, and a scene of another device or output.
-    pub fn encode_frame(
+    /// view and the [`Output`] have, and for actors that have come or gone since the stage was prepared.
+    pub fn draw(
         &mut self,
         encoder: &mut wgpu::CommandEncoder,
-        scene: &mut GpuScene,
+        stage: &Stage,
         view: &View,
         target: &wgpu::TextureView,
     ) -> Result<()> {
         view.check()?;
-        self.owns(scene)?;
         self.fits(view, target.texture())?;
-        self.encode(encoder, scene, view, target, Shown::Picture, &Clock::off())
-    }
-
-    /// Refuses a scene of another device or output.
-    fn owns(&self, scene: &GpuScene) -> Result<()> {
-        let (gpu, output) = &scene.made_by;
-        let fault = |message: &str| {
-            Err(Error::Argument {
-                what: "scene".to_owned(),
-                message: format!("{message}; please upload it by this one"),
-            })
-        };
-        if !gpu.is(self.gpu()) {
-            return fault("was uploaded by a renderer of another device");
-        }
-        if *output != self.output {
-            return fault("was uploaded by a renderer of another output");
-        }
-        Ok(())
+        self.encode(encoder, stage, view, target, Shown::Picture, &Clock::off())
     }
 
     /// Refuses a target that the pipelines do not draw into.
@@ -282,33 +289,50 @@ impl Renderer {
         Ok(())
     }
 
-    /// The frame. `clock` times its passes.
+    /// What views share. `clock` times its passes.
+    pub(crate) fn encode_shared(
+        &mut self,
+        encoder: &mut wgpu::CommandEncoder,
+        stage: &mut Stage,
+        with_maps: bool,
+        clock: &Clock,
+    ) -> Result<()> {
+        stage.embody(self)?;
+        let gpu = self.gpu().clone();
+        // Maps are drawn from lights: of the frame they read the time alone.
+        self.send_view(encoder, stage, &View::default());
+        stage.bodies.send(&gpu, &mut self.uploads, encoder, stage.lights.directional.to_light);
+        // Skinned and morphed vertices; only where the pose has changed.
+        self.encode_deform(encoder, &mut stage.bodies, clock);
+        if with_maps {
+            // What casts on faces, from the light of that shadow, and on everybody from the key light; only where a pose, the
+            // light or a place has changed.
+            self.encode_maps(encoder, stage, clock);
+        }
+        Ok(())
+    }
+
+    /// The frame of a view. `clock` times its passes.
     pub(crate) fn encode(
         &mut self,
         encoder: &mut wgpu::CommandEncoder,
-        scene: &mut GpuScene,
+        stage: &Stage,
         view: &View,
         target: &wgpu::TextureView,
         shown: Shown<'_>,
         clock: &Clock,
     ) -> Result<()> {
-        let post = scene.post.filter(|_| matches!(shown, Shown::Picture));
-        self.begin_frame(encoder, scene, view, post, shown)?;
-        // Skinned and morphed vertices; only where the pose has changed.
-        self.encode_deform(encoder, scene, clock);
+        let post = shown.post(stage);
+        let pipelines = self.begin_view(encoder, stage, view, shown)?;
         if !matches!(shown, Shown::Floor(_)) {
-            // What casts on the face, from the light of that shadow, and each character from the key light; only where the
-            // pose, the light or a place has changed.
-            self.encode_maps(encoder, scene, view, clock);
             // Depth of all surfaces, and their normals and parts, where a material reads them.
-            self.encode_prepass(encoder, scene, clock);
+            self.encode_prepass(encoder, stage, clock)?;
         }
         // Light that blooms, and how far it spreads.
-        self.encode_glow(encoder, scene, post, clock);
+        self.encode_glow(encoder, stage, post, clock);
         // One colour pass: opaque, outlines and transparent share their targets, so samples are resolved once.
         let mut pass = self.begin_color_pass(encoder, view, target, post, shown, clock);
-        draw_list::bind_scene(&mut pass, scene, self.color_frame_group(scene), &scene.character_group);
-        self.record_surfaces(&mut pass, scene, view, shown);
+        self.record_surfaces(&mut pass, stage, view, shown, &pipelines);
         drop(pass);
         // Bloom, tone curve, background, smooth edges.
         self.encode_post(encoder, view, target, post, clock);
@@ -316,95 +340,132 @@ impl Renderer {
     }
 
     /// Every draw of the colour pass.
-    fn record_surfaces(&self, pass: &mut wgpu::RenderPass<'_>, scene: &GpuScene, view: &View, shown: Shown<'_>) {
+    fn record_surfaces(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        stage: &Stage,
+        view: &View,
+        shown: Shown<'_>,
+        pipelines: &[Drawables],
+    ) {
+        let Some(actors) = actors(stage, self.color_frame_group(stage)) else { return };
         if let Shown::Floor(floor) = shown {
-            return floor.encode(pass, scene);
+            return floor.encode(pass, &actors);
         }
-        let pipelines = scene.shown(shown.sight(view));
         // Body, face, hair.
-        opaque::encode(pass, scene, pipelines);
+        opaque::encode(pass, &actors, pipelines);
         // Lines around them, hidden where a surface is nearer.
-        outline::encode(pass, scene, pipelines);
+        outline::encode(pass, &actors, pipelines);
         // Coats of short hair over both.
-        fluff::encode(pass, scene, pipelines, view.px_per_m());
+        fluff::encode(pass, &actors, pipelines, view.px_per_m(stage.places()));
         // Eyes and brows through the bangs.
-        eyes_through::encode(pass, scene, pipelines);
+        eyes_through::encode(pass, &actors, pipelines);
         // What is seen through, far before near.
-        transparent::encode(pass, scene, pipelines);
+        let order = draw_list::transparent_order(actors.bodies, view.camera.eye);
+        transparent::encode(pass, &actors, pipelines, &order);
     }
 
-    /// Writes what changes with the view: numbers, places, order of transparent draws; makes targets of a new size, and what
-    /// shows a channel.
-    fn begin_frame(
+    /// Sends the numbers of a view.
+    fn send_view(&mut self, encoder: &mut wgpu::CommandEncoder, stage: &Stage, view: &View) {
+        let numbers = self.frame_numbers.fill(|numbers| put_view(numbers, view, stage));
+        self.uploads.write(encoder, &self.frame_uniform, 0, numbers);
+    }
+
+    /// Sends what changes with the view; makes targets of a new size, and what shows its like for the first time.
+    fn begin_view(
         &mut self,
         encoder: &mut wgpu::CommandEncoder,
-        scene: &mut GpuScene,
+        stage: &Stage,
         view: &View,
-        post: Option<Post>,
         shown: Shown<'_>,
-    ) -> Result<()> {
+    ) -> Result<Vec<Drawables>> {
+        if stage.bodies.list.len() != stage.actors.len() {
+            let (bodies, actors) = (stage.bodies.list.len(), stage.actors.len());
+            let message =
+                format!("has {actors} actors, of which {bodies} are prepared; please prepare it before it is drawn");
+            return Err(Error::Argument { what: "stage".to_owned(), message });
+        }
         let gpu = self.gpu().clone();
-        let numbers = self.frame_numbers.fill(|numbers| put_view(numbers, view));
-        self.uploads.write(encoder, &self.frame_uniform, 0, numbers);
-        scene.place(view);
-        scene.fit(self);
-        scene.send(&mut self.uploads, encoder, view);
-        // Draws of a crowd share one order: that of its first character.
-        let eye = view.instances.first().map_or(view.camera.eye, |m| m.inverse().transform_point3(view.camera.eye));
-        scene.sort_transparent(eye);
-        scene.look(&self.variants, &Picture::new(&gpu, self.output, post.is_some(), shown.sight(view)))?;
-        match post {
+        self.send_view(encoder, stage, view);
+        match shown.post(stage) {
             Some(post) => self.fit_post(view.size, post)?,
             None if self.color_targets.as_ref().is_none_or(|t| t.size != view.size) => {
                 self.color_targets = Some(ColorTargets::new(&gpu, view.size, self.output));
             }
             None => {}
         }
-        let has_surfaces = scene.has_inner_lines;
+        let has_surfaces = has_surfaces(stage);
         let fits = |t: &PrepassTargets| t.size == view.size && (t.has_surfaces || !has_surfaces);
-        if scene.has_prepass && !self.prepass_targets.as_ref().is_some_and(|(t, _)| fits(t)) {
+        if has_prepass(stage) && !self.prepass_targets.as_ref().is_some_and(|(t, _)| fits(t)) {
             let targets = PrepassTargets::new(&gpu, view.size, has_surfaces);
             let group = frame_group(&gpu, &self.layouts, &self.frame_uniform, &targets);
             self.prepass_targets = Some((targets, group));
         }
+        let picture = Picture::new(&gpu, self.output, shown.sight(stage));
+        stage.bodies.list.iter().map(|body| body.data().shown(&self.variants, &picture)).collect()
+    }
+
+    fn encode_deform(&self, encoder: &mut wgpu::CommandEncoder, bodies: &mut Bodies, clock: &Clock) {
+        let stale: Vec<usize> = (0..bodies.list.len())
+            .filter(|i| {
+                let body = &mut bodies.list[*i];
+                let revision = body.pose_revision();
+                body.deformed.stale(revision).is_some()
+            })
+            .collect();
+        if !stale.is_empty() {
+            let moved = stale.iter().map(|i| &bodies.list[*i].deform);
+            self.deform.encode(encoder, moved, clock.compute(Timed::Deform));
+        }
+    }
+
+    fn encode_maps(&self, encoder: &mut wgpu::CommandEncoder, stage: &mut Stage, clock: &Clock) {
+        let (to_light, time_s) = (stage.lights.directional.to_light, stage.time_s);
+        let mut stale = Vec::new();
+        for i in 0..stage.bodies.list.len() {
+            let body = &stage.bodies.list[i];
+            if body.bangs.is_none() && body.shadow_layer().is_none() {
+                continue;
+            }
+            let key = stage.bodies.maps_key(i, to_light, time_s);
+            if stage.bodies.list[i].maps.stale(key).is_some() {
+                stale.push(i);
+            }
+        }
+        let Some(actors) = actors(stage, &self.frame_group) else { return };
+        for (n, i) in stale.iter().enumerate() {
+            // The first one's time stands for all.
+            let clock = |timed| clock.render(timed).filter(|_| n == 0);
+            let of = &actors.bodies[*i];
+            if let (Some(map), Some(reduce)) = (&of.bangs, &self.bangs_near) {
+                let inputs = BangsShadowInputs { actors, reduce, map, of };
+                bangs_shadow::encode(encoder, &inputs, clock(Timed::BangsShadow));
+            }
+            if let (Some(map), Some(layer)) = (&stage.bodies.shadow, of.shadow_layer()) {
+                shadow::encode(encoder, &ShadowInputs { actors, map, layer, of }, clock(Timed::Shadow));
+            }
+        }
+    }
+
+    fn encode_prepass(&self, encoder: &mut wgpu::CommandEncoder, stage: &Stage, clock: &Clock) -> Result<()> {
+        let Some(actors) = actors(stage, &self.frame_group).filter(|_| has_prepass(stage)) else { return Ok(()) };
+        if let Some((targets, _)) = &self.prepass_targets {
+            let surfaces = has_surfaces(stage);
+            let depths = |body: &crate::stage::body::Body| body.data().depths(&self.variants, surfaces);
+            let depths = actors.bodies.iter().map(depths).collect::<Result<Vec<_>>>()?;
+            let drawn = &|body: usize, draw: usize| depths[body][draw].as_ref();
+            let inputs = PrepassInputs { actors, targets, surfaces, drawn };
+            prepass::encode(encoder, inputs, clock.render(Timed::Prepass));
+        }
         Ok(())
     }
 
-    fn encode_deform(&self, encoder: &mut wgpu::CommandEncoder, scene: &mut GpuScene, clock: &Clock) {
-        if scene.deformed.stale(scene.pose_revision()).is_some() {
-            self.deform.encode(encoder, &DeformInputs { scene }, clock.compute(Timed::Deform));
-        }
-    }
-
-    fn encode_maps(&self, encoder: &mut wgpu::CommandEncoder, scene: &mut GpuScene, view: &View, clock: &Clock) {
-        let key = scene.maps_key(view);
-        if scene.maps.stale(key).is_none() {
-            return;
-        }
-        if let (Some(map), Some(reduce)) = (&scene.bangs, &self.bangs_near) {
-            let inputs = BangsShadowInputs { scene, frame: &self.frame_group, reduce, map };
-            bangs_shadow::encode(encoder, &inputs, clock.render(Timed::BangsShadow));
-        }
-        if let Some(map) = &scene.shadow {
-            let inputs = ShadowInputs { scene, frame: &self.frame_group, map };
-            shadow::encode(encoder, &inputs, clock.render(Timed::Shadow));
-        }
-    }
-
-    fn encode_prepass(&self, encoder: &mut wgpu::CommandEncoder, scene: &GpuScene, clock: &Clock) {
-        if let (true, Some((targets, _))) = (scene.has_prepass, &self.prepass_targets) {
-            let surfaces = scene.has_inner_lines;
-            let drawn = &mut scene.picture.iter().map(|p| p.prepass.as_ref());
-            let inputs = PrepassInputs { scene, frame: &self.frame_group, targets, surfaces, drawn };
-            prepass::encode(encoder, inputs, clock.render(Timed::Prepass));
-        }
-    }
-
-    fn encode_glow(&self, encoder: &mut wgpu::CommandEncoder, scene: &GpuScene, post: Option<Post>, clock: &Clock) {
+    fn encode_glow(&self, encoder: &mut wgpu::CommandEncoder, stage: &Stage, post: Option<Post>, clock: &Clock) {
         let targets = self.post_targets.as_ref().filter(|_| post.is_some());
-        if let (Some(PostTargets { light: Some((light, chain)), .. }), Some(bloom)) = (targets, &self.bloom) {
-            let inputs = GlowInputs { scene, frame: self.color_frame_group(scene), light };
-            glow::encode(encoder, &inputs, clock.render(Timed::Glow));
+        if let (Some(PostTargets { light: Some((light, chain)), .. }), Some(bloom)) = (targets, &self.bloom)
+            && let Some(actors) = actors(stage, self.color_frame_group(stage))
+        {
+            glow::encode(encoder, &GlowInputs { actors, light }, clock.render(Timed::Glow));
             bloom.encode(encoder, &BloomInputs { chain });
         }
     }
@@ -471,8 +532,8 @@ impl Renderer {
     }
 
     /// Group 0 of the colour pass: with what the prepass drew where a material reads it.
-    fn color_frame_group(&self, scene: &GpuScene) -> &wgpu::BindGroup {
-        let drawn = self.prepass_targets.as_ref().filter(|_| scene.has_prepass);
+    fn color_frame_group(&self, stage: &Stage) -> &wgpu::BindGroup {
+        let drawn = self.prepass_targets.as_ref().filter(|_| has_prepass(stage));
         drawn.map_or(&self.frame_group, |(_, group)| group)
     }
 
@@ -510,17 +571,20 @@ impl Renderer {
     }
 
     /// Renders one of the prepass's channels as a picture.
-    fn render_geometry(&mut self, scene: &mut GpuScene, view: &View) -> Result<Image> {
+    fn render_geometry(&mut self, stage: &mut Stage, view: &View) -> Result<Image> {
         let gpu = self.gpu().clone();
         let targets = PrepassTargets::new(&gpu, view.size, true);
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("channel") });
-        self.begin_frame(&mut encoder, scene, view, None, Shown::Picture)?;
-        self.encode_deform(&mut encoder, scene, &Clock::off());
-        // Depth, normal and part id.
-        scene.make_geometry(&self.variants)?;
-        let drawn = &mut scene.geometry.iter().map(Some);
-        let inputs = PrepassInputs { scene, frame: &self.frame_group, targets: &targets, surfaces: true, drawn };
-        prepass::encode(&mut encoder, inputs, None);
+        self.encode_shared(&mut encoder, stage, false, &Clock::off())?;
+        self.send_view(&mut encoder, stage, view);
+        if let Some(actors) = actors(stage, &self.frame_group) {
+            // Depth, normal and part id.
+            let all = actors.bodies.iter().map(|body| body.data().geometry(&self.variants));
+            let all = all.collect::<Result<Vec<_>>>()?;
+            let drawn = &|body: usize, draw: usize| all[body].get(draw);
+            let inputs = PrepassInputs { actors, targets: &targets, surfaces: true, drawn };
+            prepass::encode(&mut encoder, inputs, None);
+        }
         gpu.queue.submit([encoder.finish()]);
         let texture = match view.channel {
             Channel::Depth => &targets.depth,
@@ -529,6 +593,22 @@ impl Renderer {
         let texels = readback::read_texels(&gpu, texture, FRAME_TIMEOUT)?;
         Ok(view.channel.picture(view, texels))
     }
+}
+
+/// What passes bind of a stage that is prepared.
+fn actors<'a>(stage: &'a Stage, frame: &'a wgpu::BindGroup) -> Option<Actors<'a>> {
+    let instances = &stage.bodies.crowd()?.instances;
+    Some(Actors { bodies: &stage.bodies.list, instances, frame })
+}
+
+/// Whether something on a stage reads the depth of the picture.
+fn has_prepass(stage: &Stage) -> bool {
+    stage.bodies.list.iter().any(|body| body.data().has_prepass)
+}
+
+/// Whether something on it reads normals and parts.
+fn has_surfaces(stage: &Stage) -> bool {
+    stage.bodies.list.iter().any(|body| body.data().has_inner_lines)
 }
 
 /// What a frame that is finished by [`PostPass`] is drawn into; settings that are numbers do not count.

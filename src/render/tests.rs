@@ -85,7 +85,7 @@ fn face_maps() -> Vec<FaceMap> {
 fn requests(shaders: &Shaders, material: &Material, colors: bool, channel: Option<&str>, samples: u32) -> Vec<Request> {
     let maps = face_maps();
     let of = Composition::new(shaders, &surroundings(material, &maps));
-    let sight = Sight { channel, punctual: samples == 4 };
+    let sight = Sight { channel, punctual: samples == 4, hdr: false };
     let picture = Picture { output: Output { samples, ..Output::default() }, depth_format: DEPTH_FORMAT, sight };
     let draw = super::draw_list::Draw {
         material: 0,

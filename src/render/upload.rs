@@ -1,27 +1,26 @@
 //! Scene to GPU: one vertex buffer, one index buffer, one place in a uniform buffer a material, draws merged by material.
 
 use std::borrow::Cow;
-use std::collections::BTreeMap;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-use glam::Mat4;
-
-use super::draw_list::{self, Pipelines, casts_on_face, through_order};
+use super::character::{Character, CharacterData};
+use super::draw_list::{self, casts_on_face, through_order};
 use super::geometry::Geometry;
-use super::gpu_scene::{Crowd, GpuScene, MapSamplers, Revisions, Scratch};
 use super::looks::{Looks, bound_textures, stride};
-use super::made::Made;
 use super::material::{self, Composition, Source};
-use super::pass::bangs_shadow::{BangsMap, map_texture};
-use super::pass::shadow::{self, ShadowMap};
+use super::pass::bangs_shadow::{self, BangsFit, BangsMap};
+use super::pass::deform::{DeformBuffers, DeformSource};
+use super::pass::shadow::{self, ShadowFit, ShadowMap};
 use super::pass::{Picture, Sight, color_depth_format};
 use super::textures::{self, TextureSet};
 use super::{Renderer, bind, uv_metric};
 use crate::material::{Encoding, MAX_SHELLS, Material, Surroundings, out_of_range};
-use crate::motion::{Driven, Pose};
-use crate::scene::{Image, Scene};
+use crate::motion::Driven;
+use crate::scene::{Image, Mesh, Primitive, Scene};
 use crate::sdf::FaceMap;
-use crate::{Error, Result};
+use crate::stage::body::Body;
+use crate::stage::crowd::Crowd;
+use crate::{Error, Gpu, Result, Stage};
 
 impl Renderer {
     /// Uploads a scene at rest and makes every pipeline that it needs.
@@ -29,7 +28,7 @@ impl Renderer {
     /// # Errors
     /// [`Error::Gpu`] where the adapter refuses a resource, [`Error::Argument`] where the scene contradicts itself or a number
     /// of a material is out of its range.
-    pub fn upload(&mut self, scene: &Scene) -> Result<GpuScene> {
+    pub fn upload(&mut self, scene: &Scene) -> Result<Character> {
         let gpu = self.gpu().clone();
         let looks = self.looks_of(scene)?;
         gpu.scoped(|| {
@@ -44,7 +43,7 @@ impl Renderer {
     ///
     /// # Errors
     /// Those of [`Renderer::upload`].
-    pub fn upload_and_empty_images(&mut self, scene: &mut Scene) -> Result<GpuScene> {
+    pub fn upload_and_empty_images(&mut self, scene: &mut Scene) -> Result<Character> {
         let gpu = self.gpu().clone();
         let looks = self.looks_of(scene)?;
         gpu.scoped(|| {
@@ -92,10 +91,9 @@ impl Renderer {
         Ok(Described { sources, compositions, metres_per_uv, driven })
     }
 
-    fn upload_with(&mut self, scene: &Scene, described: Described, textures: &TextureSet) -> Result<GpuScene> {
+    fn upload_with(&mut self, scene: &Scene, described: Described, textures: &TextureSet) -> Result<Character> {
         let geometry = Geometry::gather(scene);
         let gpu = self.gpu().clone();
-        let device = &gpu.device;
         let buffer = |label, contents: &[u8], usage| bind::filled(&gpu, label, contents, usage);
         use wgpu::BufferUsages as U;
         let Described { sources, compositions, metres_per_uv, driven } = described;
@@ -103,7 +101,11 @@ impl Renderer {
         let stride = stride(&places);
         let bound = compositions.iter().map(|c| bound_textures(scene, c, textures)).collect();
         let looks = Looks {
-            numbers: buffer("materials", &vec![0; sources.len().max(1) * stride as usize], U::UNIFORM | U::COPY_DST),
+            numbers: buffer(
+                "materials",
+                &vec![0; sources.len().max(1) * stride as usize],
+                U::UNIFORM | U::COPY_DST | U::COPY_SRC,
+            ),
             places,
             sources,
             compositions,
@@ -115,8 +117,6 @@ impl Renderer {
             metres_per_uv,
             driven,
             self_shadow: scene.self_shadow.is_some(),
-            posed: Vec::new(),
-            waiting: Vec::new(),
         };
         for (index, material) in looks.sources.iter().enumerate() {
             gpu.queue.write_buffer(&looks.numbers, index as u64 * stride, &looks.bytes(index, material)?);
@@ -124,147 +124,203 @@ impl Renderer {
 
         let indices = buffer("indices", bytemuck::cast_slice(&geometry.indices), U::INDEX);
         let static_vertices = buffer("static vertices", bytemuck::cast_slice(&geometry.static_vertices), U::VERTEX);
-        let crowd = Crowd::new(&gpu);
-        let bangs = self.bangs_map(scene, &geometry)?;
-        let shadow = self.shadow_map(scene, &geometry);
-        let map_samplers = MapSamplers {
-            gather: device.create_sampler(&wgpu::SamplerDescriptor { label: Some("bangs"), ..Default::default() }),
-            compare: shadow::sampler(&gpu),
-        };
-        let deform = self.deform.buffers(&gpu, &geometry.deform_input());
-        let character_group_without_map = self.character_group(&crowd, &deform.deformed, &map_samplers, None, None);
-        let character_group = character_group_without_map.clone();
+        let bangs = bangs_fit(scene, &geometry);
+        if bangs.is_some() {
+            self.bangs_near()?;
+        }
+        let shadow = shadow_fit(scene, &geometry);
+        let source = DeformSource::new(&gpu, &geometry.deform_input());
         let draws = draw_list::draws(scene, &geometry.parts, color_depth_format(&gpu).has_stencil_aspect());
-        let picture = Picture::new(&gpu, self.output, scene.post.is_some(), Sight::default());
-        let requests = draw_list::requests(scene, &draws, &looks.compositions, &picture);
-        self.variants.get_all(requests.iter().flat_map(Pipelines::iter))?;
+        let drawn = || draws.iter().map(|d| &looks.compositions[d.material]);
+        let has_inner_lines = drawn().any(|c| c.needs("prepass_surfaces"));
+        let cuts_move = drawn().any(|c| c.takes_part("uv"));
+        let sight = Sight { hdr: scene.post.is_some(), ..Sight::default() };
+        let requests = draw_list::requests(scene, &draws, &looks.compositions, &Picture::new(&gpu, self.output, sight));
+        let has_prepass = requests.iter().any(|p| p.prepass.is_some());
         let shells = scene.materials.iter().filter_map(|m| m.fluff).map(|f| f.shells.min(MAX_SHELLS)).max();
-        let mut uploaded = GpuScene {
-            deform,
+        let data = CharacterData {
+            made_by: (gpu.clone(), self.output),
+            scene: measured(scene),
             static_vertices,
             indices,
-            crowd,
-            instance_rows: Vec::new(),
-            shells: shells.unwrap_or(0),
-            character_group,
-            character_group_without_map,
-            bangs,
-            shadow,
-            map_samplers,
-            head: Mat4::IDENTITY,
-            hips: Mat4::IDENTITY,
+            source,
             looks,
-            transparent_order: Vec::with_capacity(draws.len()),
+            picture: OnceLock::new(),
+            shown: Mutex::default(),
+            groups: Mutex::default(),
+            depths: Mutex::default(),
+            geometry: OnceLock::new(),
             through_order: through_order(&draws),
             draws,
-            picture: Vec::new(),
-            sights: BTreeMap::new(),
-            geometry: Vec::new(),
-            groups: Vec::new(),
-            eyes_through: scene.eyes_through,
-            post: scene.post,
-            revisions: Revisions::default(),
-            sent: Made::not_yet(()),
-            deformed: Made::not_yet(()),
-            maps: Made::not_yet(()),
-            has_inner_lines: false,
-            has_prepass: false,
-            cuts_move: false,
+            bangs,
+            shadow,
+            has_prepass,
+            has_inner_lines,
+            cuts_move,
+            shells: shells.unwrap_or(0),
             rig: geometry.rig,
-            scratch: Scratch::default(),
             part_materials: geometry.part_materials,
-            nodes: scene.nodes.len(),
-            made_by: (gpu.clone(), self.output),
             triangles: geometry.indices.len() / 3,
             texture_bytes: textures.bytes,
         };
-        uploaded.picture = uploaded.made(&self.variants, requests)?;
-        uploaded.has_prepass = uploaded.picture.iter().any(|p| p.prepass.is_some());
-        let drawn = || uploaded.draws.iter().map(|d| &uploaded.looks.compositions[d.material]);
-        let has_inner_lines = drawn().any(|c| c.needs("prepass_surfaces"));
-        let cuts_move = drawn().any(|c| c.takes_part("uv"));
-        (uploaded.has_inner_lines, uploaded.cuts_move) = (has_inner_lines, cuts_move);
-        uploaded.set_pose(scene, &Pose::rest(scene))?;
-        Ok(uploaded)
+        let picture = data.made(&self.variants, requests)?;
+        if has_prepass {
+            let depths = picture.iter().map(|p| p.prepass.clone()).collect();
+            data.depths.lock().unwrap_or_else(PoisonError::into_inner)[usize::from(has_inner_lines)] = Some(depths);
+        }
+        data.shown
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .insert((None, false, sight.hdr), Arc::clone(&picture));
+        // Nobody else has seen it yet.
+        let _ = data.picture.set(picture);
+        Ok(Character(Arc::new(data)))
     }
 
-    /// Shows another picture in place of a material's base texture from the next frame on: the iris of an eye, its lights,
-    /// a pattern of cloth. The picture is sRGB.
+    /// Shows another picture in place of a material's base texture on one actor of a stage, from the next frame on: the iris
+    /// of an eye, its lights, a pattern of cloth. The picture is sRGB.
     ///
     /// # Errors
-    /// [`Error::Argument`] for a material that is not there or has had no base texture at its upload, and for a picture
-    /// whose size does not fit its bytes.
-    pub fn replace_base_texture(&self, scene: &mut GpuScene, material: usize, image: &Image) -> Result<()> {
-        let has_one = scene.looks.sources.get(material).is_some_and(|m| m.base.texture.is_some());
+    /// [`Error::Argument`] for an actor that is not there, a material that is not there or has had no base texture at its
+    /// upload, and for a picture whose size does not fit its bytes.
+    pub fn replace_base_texture(&self, stage: &mut Stage, actor: usize, material: usize, image: &Image) -> Result<()> {
+        let fault = |what: String, message: &str| Err(Error::Argument { what, message: message.to_owned() });
+        let Some(character) = stage.actors.get(actor).map(|a| a.character.clone()) else {
+            return fault(format!("actor {actor}"), "is not there");
+        };
+        let has_one = character.0.looks.sources.get(material).is_some_and(|m| m.base.texture.is_some());
         if !has_one {
-            let message = "is not there or has no base texture; materials get theirs before the upload".to_owned();
-            return Err(Error::Argument { what: format!("material {material}"), message });
+            let message = "is not there or has no base texture; materials get theirs before the upload";
+            return fault(format!("material {material}"), message);
         }
+        stage.embody(self)?;
         let gpu = self.gpu().clone();
-        gpu.scoped(|| {
-            let view = textures::single(&gpu, image, Encoding::Srgb)?;
-            // Where lit and shade share their texture, its place serves both.
-            for bound in scene.looks.textures[material].iter_mut().filter(|b| b.name == "base_texture") {
-                bound.view = view.clone();
-            }
-            scene.revisions.cuts += 1;
-            let GpuScene { groups, looks, .. } = scene;
-            for group in groups.iter_mut().filter(|g| g.material == material) {
-                group.group = looks.group(&gpu, material, &group.layout);
-            }
-            Ok(())
-        })?
+        let view = gpu.scoped(|| textures::single(&gpu, image, Encoding::Srgb))??;
+        stage.bodies.list[actor].edits_mut().set_base(material, view);
+        Ok(())
     }
 
-    /// Group 1; where a map is missing, an empty one stands.
-    pub(super) fn character_group(
-        &self,
-        crowd: &Crowd,
-        deformed: &wgpu::Buffer,
-        samplers: &MapSamplers,
-        bangs: Option<&BangsMap>,
-        shadow: Option<&ShadowMap>,
-    ) -> wgpu::BindGroup {
-        let no_bangs = map_texture(self.gpu(), 1, 1);
-        let (map, near) = bangs.map_or((&no_bangs, &no_bangs), |b| (&b.view, &b.near));
-        let no_shadow = shadow::map_texture(self.gpu(), 1, 1);
-        let view = |view| wgpu::BindingResource::TextureView(view);
-        let resources = [
-            crowd.actors.as_entire_binding(),
-            deformed.as_entire_binding(),
-            view(map),
-            view(near),
-            wgpu::BindingResource::Sampler(&samplers.gather),
-            view(shadow.map_or(&no_shadow, |s| &s.view)),
-            wgpu::BindingResource::Sampler(&samplers.compare),
-        ];
-        bind::group(self.gpu(), "character", &self.layouts.character, resources)
-    }
-
-    /// The shadow maps of the scene's characters, where something casts and something receives.
-    fn shadow_map(&self, scene: &Scene, geometry: &Geometry) -> Option<ShadowMap> {
-        let settings = scene.self_shadow?;
-        let (low, high) = geometry.rig.bounds?;
-        let casts = scene.materials.iter().any(|m| m.cast_shadow.is_some_and(|s| s.casts));
-        let receives = scene.materials.iter().any(|m| m.cast_shadow.is_some_and(|s| s.received > 0.0));
-        let radius = (high - low).length() * 0.5;
-        let fits = casts && receives && radius.is_finite() && radius > 0.0;
-        fits.then(|| ShadowMap::new(self.gpu(), settings, (low + high) * 0.5, radius))
-    }
-
-    /// The map of the bangs' shadow, where the scene has bangs, hair that casts and a face that receives.
-    fn bangs_map(&mut self, scene: &Scene, geometry: &Geometry) -> Result<Option<BangsMap>> {
-        let (Some(bangs), Some((low, high))) = (scene.bangs, scene.face_box(None)) else { return Ok(None) };
-        let casts = geometry.parts.iter().any(|p| casts_on_face(p.role));
-        let receives = scene.materials.iter().any(|m| m.bangs_shadow.is_some());
-        let lids = scene.materials.iter().any(|m| m.bangs_shadow.is_some_and(|b| b.lids));
-        if !((casts || lids) && receives) {
-            return Ok(None);
+    /// Refuses a character of another device or output.
+    pub(crate) fn owns(&self, character: &Character, actor: usize) -> Result<()> {
+        let (gpu, output) = &character.0.made_by;
+        let fault = |message: &str| {
+            let message = format!("{message}; please upload it by this one");
+            Err(Error::Argument { what: format!("actors[{actor}].character"), message })
+        };
+        if !gpu.is(self.gpu()) {
+            return fault("was uploaded by a renderer of another device");
         }
-        // Half as wide again as the head: bangs hang before it.
-        let half = ((high - low).max_element() * 0.75).min(10.0);
-        let gpu = self.gpu().clone();
-        Ok(Some(BangsMap::new(&gpu, self.bangs_near()?, bangs, (low + high) * 0.5, half, lids)))
+        if *output != self.output {
+            return fault("was uploaded by a renderer of another output");
+        }
+        Ok(())
+    }
+
+    /// Buffers of a body.
+    pub(crate) fn deform_buffers(&self, source: &DeformSource) -> DeformBuffers {
+        self.deform.buffers(self.gpu(), source)
+    }
+
+    /// The map of the bangs' shadow of a body.
+    pub(crate) fn bangs_map(&self, fit: &BangsFit) -> Option<BangsMap> {
+        Some(BangsMap::new(self.gpu(), self.bangs_near.as_ref()?, *fit))
+    }
+
+    /// Group 1 of a body, and the same while maps are drawn; where a map is missing, an empty one stands.
+    pub(crate) fn body_groups(&self, crowd: &Crowd, body: &Body, shadow: Option<&ShadowMap>) -> [wgpu::BindGroup; 2] {
+        let EmptyMaps { bangs: no_bangs, shadow: no_shadow, gather, compare } = &self.empty_maps;
+        let group = |bangs: Option<&BangsMap>, shadow: Option<&ShadowMap>| {
+            let (map, near) = bangs.map_or((no_bangs, no_bangs), |b| (&b.view, &b.near));
+            let resources = [
+                crowd.actors.as_entire_binding(),
+                body.deform.deformed.as_entire_binding(),
+                wgpu::BindingResource::TextureView(map),
+                wgpu::BindingResource::TextureView(near),
+                wgpu::BindingResource::Sampler(gather),
+                wgpu::BindingResource::TextureView(shadow.map_or(no_shadow, |s| &s.view)),
+                wgpu::BindingResource::Sampler(compare),
+            ];
+            bind::group(self.gpu(), "actor", &self.layouts.character, resources)
+        };
+        [group(body.bangs.as_ref(), shadow), group(None, None)]
+    }
+}
+
+/// What stands where an actor has no maps, and how maps are read.
+#[derive(Debug)]
+pub(super) struct EmptyMaps {
+    bangs: wgpu::TextureView,
+    shadow: wgpu::TextureView,
+    gather: wgpu::Sampler,
+    compare: wgpu::Sampler,
+}
+
+impl EmptyMaps {
+    pub fn new(gpu: &Gpu) -> Self {
+        let gather = wgpu::SamplerDescriptor { label: Some("bangs"), ..Default::default() };
+        Self {
+            bangs: bangs_shadow::map_texture(gpu, 1, 1),
+            shadow: shadow::map_texture(gpu, 1, 1),
+            gather: gpu.device.create_sampler(&gather),
+            compare: shadow::sampler(gpu),
+        }
+    }
+}
+
+/// How the shadow map fits a character, where something of it casts and something receives.
+fn shadow_fit(scene: &Scene, geometry: &Geometry) -> Option<ShadowFit> {
+    let settings = scene.self_shadow?;
+    let (low, high) = geometry.rig.bounds?;
+    let casts = scene.materials.iter().any(|m| m.cast_shadow.is_some_and(|s| s.casts));
+    let receives = scene.materials.iter().any(|m| m.cast_shadow.is_some_and(|s| s.received > 0.0));
+    let radius = (high - low).length() * 0.5;
+    let fits = casts && receives && radius.is_finite() && radius > 0.0;
+    fits.then(|| ShadowFit { settings, middle: (low + high) * 0.5, radius })
+}
+
+/// How the map of the bangs' shadow fits a head, where the scene has bangs, hair that casts and a face that receives.
+fn bangs_fit(scene: &Scene, geometry: &Geometry) -> Option<BangsFit> {
+    let (bangs, (low, high)) = (scene.bangs?, scene.face_box(None)?);
+    let casts = geometry.parts.iter().any(|p| casts_on_face(p.role));
+    let receives = scene.materials.iter().any(|m| m.bangs_shadow.is_some());
+    let lids = scene.materials.iter().any(|m| m.bangs_shadow.is_some_and(|b| b.lids));
+    // Half as wide again as the head: bangs hang before it.
+    let half = ((high - low).max_element() * 0.75).min(10.0);
+    ((casts || lids) && receives).then_some(BangsFit { bangs, middle: (low + high) * 0.5, half, lids })
+}
+
+/// A scene without what only the GPU needs.
+fn measured(scene: &Scene) -> Scene {
+    let primitive = |p: &Primitive| Primitive {
+        material: p.material,
+        role: p.role,
+        positions: p.positions.clone(),
+        influences: p.influences.clone(),
+        ..Primitive::default()
+    };
+    let mesh = |m: &Mesh| Mesh {
+        name: m.name.clone(),
+        primitives: m.primitives.iter().map(primitive).collect(),
+        morph_names: m.morph_names.clone(),
+    };
+    let image = |i: &Image| Image { name: i.name.clone(), width: i.width, height: i.height, ..Image::default() };
+    Scene {
+        source: scene.source.clone(),
+        nodes: scene.nodes.clone(),
+        meshes: scene.meshes.iter().map(mesh).collect(),
+        skins: scene.skins.clone(),
+        materials: scene.materials.clone(),
+        textures: scene.textures.clone(),
+        images: scene.images.iter().map(image).collect(),
+        face_maps: scene.face_maps.iter().map(FaceMap::without_texels).collect(),
+        animations: scene.animations.clone(),
+        character: scene.character.clone(),
+        lights: scene.lights.clone(),
+        bangs: scene.bangs,
+        self_shadow: scene.self_shadow,
+        eyes_through: scene.eyes_through,
+        post: scene.post,
+        warnings: scene.warnings.clone(),
     }
 }
 

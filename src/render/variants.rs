@@ -34,11 +34,19 @@ pub(crate) struct Variant {
     pub bound: Option<Arc<BoundLayout>>,
 }
 
-/// What a pass draws with: a pipeline, and the group of its material in [`GpuScene::groups`](super::gpu_scene::GpuScene).
+/// What a pass draws with: a pipeline, and what it binds of its material.
 #[derive(Clone, Debug)]
 pub(crate) struct Drawn {
     pub pipeline: wgpu::RenderPipeline,
-    pub group: Option<usize>,
+    pub bound: Option<Bound>,
+}
+
+/// Group 2 of a material for shaders that bind the same of it.
+#[derive(Clone, Debug)]
+pub(crate) struct Bound {
+    pub material: usize,
+    pub layout: Arc<BoundLayout>,
+    pub group: wgpu::BindGroup,
 }
 
 /// Layout of group 2 for shaders that bind the same.

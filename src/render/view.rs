@@ -1,4 +1,4 @@
-//! What is seen: camera, lights, size, time, channel, instances; and framings of a character.
+//! What is seen: camera, size, background, channel; and framings of a character.
 
 use glam::{Mat4, Quat, Vec3};
 
@@ -7,7 +7,7 @@ use crate::{
     Error, Result,
     color::Srgb,
     motion::Pose,
-    scene::{Camera, Framing, HumanBone, Image, Lights, Scene},
+    scene::{Camera, Framing, HumanBone, Image, Scene},
 };
 
 /// One picture of a scene.
@@ -17,17 +17,10 @@ pub struct View {
     pub size: [u32; 2],
     /// Camera.
     pub camera: Camera,
-    /// Lights.
-    pub lights: Lights,
     /// What is behind the scene. Default: transparent.
     pub background: Background,
-    /// Time of everything that is animated by time alone, seconds. Default: 0.
-    pub time_s: f32,
     /// What is shown. Default: the shaded picture.
     pub channel: Channel,
-    /// Transforms `world_from_character`: one character for each. They rotate, move and scale evenly. Default: one at
-    /// the origin.
-    pub instances: Vec<Mat4>,
 }
 
 impl Default for View {
@@ -35,11 +28,8 @@ impl Default for View {
         Self {
             size: [1024, 1024],
             camera: Camera::default(),
-            lights: Lights::default(),
             background: Background::default(),
-            time_s: 0.0,
             channel: Channel::default(),
-            instances: vec![Mat4::IDENTITY],
         }
     }
 }
@@ -171,14 +161,14 @@ impl Channel {
 
 impl View {
     /// Size of a metre at the nearest character, pixels. Characters are taken as columns two metres high.
-    pub(crate) fn px_per_m(&self) -> f32 {
+    pub(crate) fn px_per_m<'a>(&self, places: impl Iterator<Item = &'a Mat4>) -> f32 {
         let away = |m: &Mat4| {
             let (foot, top) = (m.transform_point3(Vec3::ZERO), m.transform_point3(Vec3::Y * 2.0));
             let along = top - foot;
             let t = ((self.camera.eye - foot).dot(along) / along.length_squared().max(1e-9)).clamp(0.0, 1.0);
             self.camera.eye.distance(foot + along * t)
         };
-        let nearest = self.instances.iter().map(away).fold(f32::MAX, f32::min).max(self.camera.near);
+        let nearest = places.map(away).fold(f32::MAX, f32::min).max(self.camera.near);
         self.size[1] as f32 / (2.0 * nearest * (self.camera.fov_y_rad * 0.5).tan())
     }
 
@@ -236,8 +226,7 @@ impl View {
             };
         let eye = target + Quat::from_rotation_y(yaw_rad) * Vec3::Z * distance;
         let near = (distance * 0.05).clamp(1e-4, 0.1);
-        let lights = scene.lights.clone().unwrap_or_default();
-        Self { size, camera: Camera { eye, near, ..camera }, lights, ..Self::default() }
+        Self { size, camera: Camera { eye, near, ..camera }, ..Self::default() }
     }
 
     /// Refuses what no picture can be made of.
@@ -267,19 +256,7 @@ impl View {
             let known: Vec<&str> = Channel::all().map(|(_, name, _)| name).collect();
             return fault("channel", format!("is {name:?}; expected one of {}", known.join(", ")));
         }
-        if self.instances.is_empty() {
-            return fault("instances", "is empty; expected at least one transform".to_owned());
-        }
-        if let Some(at) = self.instances.iter().position(|m| !m.is_finite() || m.determinant() == 0.0) {
-            return fault(
-                &format!("instances[{at}]"),
-                "is not finite, or flat; expected a place in the world".to_owned(),
-            );
-        }
-        if !self.time_s.is_finite() {
-            return fault("time", format!("is {} s; expected a number", self.time_s));
-        }
-        self.lights.check()
+        Ok(())
     }
 }
 

@@ -1,13 +1,14 @@
 //! Every adapter of the machine draws the same pictures.
 
 use hikage::{
-    Background, Gpu, View,
+    Background, Gpu,
     golden::{Tolerance, compare, sheet},
     material::{Alpha, AlphaMode, Outline, OutlineWidth, Rim},
     picture::write_png,
     scene::{Image, Scene},
 };
 
+use crate::support::Shot;
 use crate::support::{Lent, cube, render, scene, sphere, square, texture, two_tone, view};
 
 /// Inside, two colour steps, and no more than one over a flat tile (values at the middle of a step round either way).
@@ -57,7 +58,7 @@ fn gpus() -> Vec<Lent> {
     names.iter().map(|name| Lent::of(name)).collect()
 }
 
-fn scenes() -> Vec<(&'static str, Scene, View)> {
+fn scenes() -> Vec<(&'static str, Scene, Shot)> {
     let ball = || sphere(0.5, 48, 96);
     let plain = two_tone();
 
@@ -85,7 +86,7 @@ fn scenes() -> Vec<(&'static str, Scene, View)> {
     painted.materials[0].base.texture = Some(checks);
 
     let opaque = view(256, 4.0);
-    let clear = View { background: Background::Transparent, ..opaque.clone() };
+    let clear = Shot { background: Background::Transparent, ..opaque.clone() };
     vec![
         ("two-tone", scene(vec![(ball(), plain)]), opaque.clone()),
         ("outline", scene(vec![(ball(), lined)]), clear.clone()),

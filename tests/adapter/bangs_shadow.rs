@@ -1,15 +1,16 @@
 //! The shadow that front hair casts on the face, on whole characters.
 
 use glam::{Mat4, Vec3};
+use hikage::Channel;
 use hikage::color::LinearRgb;
 use hikage::scene::{Ambient, Bangs, Framing, Image, Role, Scene};
-use hikage::{Channel, View};
 
+use crate::support::Shot;
 use crate::support::{self, anime_heroine, gpu, render};
 
 /// Her face, lit from above and a little from the left.
-fn face(scene: &Scene, side: u32) -> View {
-    let mut view = View::framed(scene, Framing::Face, 0.0, [side, side]);
+fn face(scene: &Scene, side: u32) -> Shot {
+    let mut view = Shot::framed(scene, Framing::Face, 0.0, [side, side]);
     view.lights.ambient = Ambient::uniform(LinearRgb::BLACK);
     view.lights.directional.to_light = Vec3::new(0.3, 0.6, 0.75).normalize();
     view
@@ -70,7 +71,7 @@ fn received_shadow_is_the_dark_end_of_the_ramp() {
         texel[2] = 0;
     }
     let view = face(&scene, 256);
-    let channel = |channel| render(&gpu, &scene, &View { channel, ..view.clone() });
+    let channel = |channel| render(&gpu, &scene, &Shot { channel, ..view.clone() });
     let (arrived, place) = (channel(Channel::Look("bangs-shadow")), channel(Channel::Look("shade-ramp")));
     let of_face = channel(Channel::Look("face-shadow"));
     let (mut dark, mut lit) = (0, 0);
@@ -110,7 +111,7 @@ fn the_shadow_depends_on_head_and_light_alone() {
     let mut far = view.clone();
     far.camera.eye = far.camera.target + (far.camera.eye - far.camera.target) * 2.0;
     far.camera.fov_y_rad = 2.0 * ((far.camera.fov_y_rad * 0.5).tan() * 0.5).atan();
-    let share = |view: &View| shadowed(&render(&gpu, &scene, view), &render(&gpu, &without(&scene), view));
+    let share = |view: &Shot| shadowed(&render(&gpu, &scene, view), &render(&gpu, &without(&scene), view));
     let (near, far) = (share(&view), share(&far));
     assert!((near / far - 1.0).abs() < 0.15, "{near} of the picture near, {far} far");
 }
@@ -119,7 +120,7 @@ fn the_shadow_depends_on_head_and_light_alone() {
 fn an_artists_direction_overrides_the_light_and_softness_widens_the_edge() {
     let (gpu, mut scene) = (gpu(), heroine_without_ramps());
     let view = face(&scene, 192);
-    let picture = |scene: &Scene, view: &View| render(&gpu, scene, view);
+    let picture = |scene: &Scene, view: &Shot| render(&gpu, scene, view);
     scene.bangs = Some(Bangs { direction_rad: Some([0.4, 0.5]), ..Bangs::default() });
     let mut turned = view.clone();
     turned.lights.directional.to_light = Vec3::new(-0.25, 0.6, 0.75).normalize();

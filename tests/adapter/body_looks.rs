@@ -7,8 +7,9 @@ use hikage::material::{
     Fluff, Gem, Glow, InnerLines, Material, ShadeRamp, Shading, ShapedHighlight, Sparkle, Stocking, Toon,
 };
 use hikage::scene::{Ambient, Bloom, Image, Post, PunctualLight, Scene, SelfShadow, ToneCurve};
-use hikage::{Background, Channel, Output, View};
+use hikage::{Background, Channel, Output};
 
+use crate::support::Shot;
 use crate::support::{gpu, pixel, render, render_with, scene, sphere, square, texture, two_tone, view};
 
 fn ball(change: impl FnOnce(&mut Material)) -> Scene {
@@ -18,7 +19,7 @@ fn ball(change: impl FnOnce(&mut Material)) -> Scene {
 }
 
 /// A ball fills most of the picture.
-fn ball_view(size: u32) -> View {
+fn ball_view(size: u32) -> Shot {
     let mut view = view(size, 10.0);
     view.camera.fov_y_rad = 2.0 * (0.06f32).atan();
     view
@@ -58,7 +59,7 @@ fn every_look_shows() {
         let shown = render(&gpu, &scene, &view);
         let changed = difference(&plain, &shown);
         assert!(changed > 100, "{channel:?}: {changed} pixels change");
-        let seen = render(&gpu, &scene, &View { channel, ..view.clone() });
+        let seen = render(&gpu, &scene, &Shot { channel, ..view.clone() });
         let bright = seen.pixels.chunks(4).filter(|p| p[..3].iter().any(|c| *c > 40)).count();
         assert!(bright > 60, "{channel:?} shows {bright} pixels");
     }
@@ -74,7 +75,7 @@ fn a_shaped_highlight_keeps_its_area() {
         .iter()
         .map(|degrees| {
             let yaw = degrees.to_radians();
-            let mut view = View { channel: Channel::Look("highlight"), ..ball_view(256) };
+            let mut view = Shot { channel: Channel::Look("highlight"), ..ball_view(256) };
             view.lights.directional.to_light = Vec3::new(yaw.sin(), 0.2, yaw.cos()).normalize();
             let image = render(&gpu, &scene, &view);
             image.pixels.chunks(4).map(|p| f64::from(p[0]) / 255.0).sum()
@@ -108,7 +109,7 @@ fn sparks_do_not_flicker_and_keep_their_number() {
         m.sparkle = Some(Sparkle { spread: 0.8, ..Sparkle::default() });
     });
     let at = |degrees: f32, zoom: f32| {
-        let mut view = View { channel: Channel::Look("sparkle"), ..ball_view(256) };
+        let mut view = Shot { channel: Channel::Look("sparkle"), ..ball_view(256) };
         view.camera.fov_y_rad /= zoom;
         view.lights.directional.to_light = Vec3::new(0.2, 0.3, 1.0).normalize();
         // The light turns with the viewer: only the surface's grains change their angle.
@@ -120,7 +121,7 @@ fn sparks_do_not_flicker_and_keep_their_number() {
     };
     // Grains move with the surface, so the light alone turns for the flicker.
     let lit_from = |degrees: f32| {
-        let mut view = View { channel: Channel::Look("sparkle"), ..ball_view(256) };
+        let mut view = Shot { channel: Channel::Look("sparkle"), ..ball_view(256) };
         view.lights.directional.to_light =
             glam::Quat::from_rotation_y(degrees.to_radians()) * Vec3::new(0.2, 0.3, 1.0).normalize();
         render(&gpu, &scene, &view)
@@ -154,7 +155,7 @@ fn fire_loops_and_erodes() {
         scene
     };
     let at = |scene: &Scene, time_s: f32| {
-        render(&gpu, scene, &View { time_s, background: Background::Transparent, ..ball_view(96) })
+        render(&gpu, scene, &Shot { time_s, background: Background::Transparent, ..ball_view(96) })
     };
     let fire = burning(Fire::default());
     let (first, between, after) = (at(&fire, 0.5), at(&fire, 1.4), at(&fire, 2.5));
@@ -257,7 +258,7 @@ fn rims_have_sides_masks_lamps_and_an_end() {
     let mut masked = rimmed(rim);
     let mask = texture(&mut masked, 4, 16, |_, y| [if y < 8 { 0 } else { 255 }; 4]);
     masked.materials[0].depth_rim = Some(DepthRim { width_mask: Some(mask), light_side: [-1.5, -1.2], ..rim });
-    let image = render(&gpu, &masked, &View { channel: Channel::Look("depth-rim"), ..view.clone() });
+    let image = render(&gpu, &masked, &Shot { channel: Channel::Look("depth-rim"), ..view.clone() });
     let rows = |rows: std::ops::Range<u32>| {
         rows.map(|y| (0..256).filter(|x| pixel(&image, *x, y)[0] > 99).count()).sum::<usize>()
     };
@@ -279,7 +280,7 @@ fn inner_lines_are_drawn_where_surfaces_meet() {
         scene(vec![(square([-0.25, 0.0], 0.25, 0.0), material(lines)), (right, material(lines))])
     };
     let view =
-        View { channel: Channel::Look("inner-lines"), background: Background::Color(Srgb([0; 3])), ..ball_view(512) };
+        Shot { channel: Channel::Look("inner-lines"), background: Background::Color(Srgb([0; 3])), ..ball_view(512) };
     let line = |scene: &Scene| {
         let image = render(&gpu, scene, &view);
         (0..512).map(|x| f32::from(pixel(&image, x, 256)[0]) / 255.0).map(hikage::color::linear_from_srgb).sum::<f32>()
@@ -374,7 +375,7 @@ fn post_smooths_edges_of_one_sample() {
 #[test]
 fn surfaces_vanish() {
     let gpu = gpu();
-    let view = View { background: Background::Transparent, ..ball_view(128) };
+    let view = Shot { background: Background::Transparent, ..ball_view(128) };
     let left = |change: &dyn Fn(&mut Material)| {
         let image = render(&gpu, &ball(change), &view);
         image.pixels.chunks(4).filter(|p| p[3] > 0).count()
@@ -451,7 +452,7 @@ fn emission_blinks_and_scrolls() {
         },
         ..Material::default()
     };
-    let at = |time_s: f32| pixel(&render(&gpu, &scene, &View { time_s, ..ball_view(64) }), 20, 32)[0];
+    let at = |time_s: f32| pixel(&render(&gpu, &scene, &Shot { time_s, ..ball_view(64) }), 20, 32)[0];
     assert!(at(0.0) > 200 && at(1.0) < 5, "{} and {}", at(0.0), at(1.0));
     // After two seconds the stripes have moved by half: dark where it was bright, at the peak of the blink.
     assert!(at(2.0) < 5 && at(4.0) > 200, "{} and {}", at(2.0), at(4.0));

@@ -1,9 +1,10 @@
 //! Debug channels of shading: each shows its own part of the anime look and nothing else.
 
 use hikage::scene::{Framing, Image};
-use hikage::{Channel, Renderer, View};
+use hikage::{Channel, Renderer};
 
 use crate::support::{self, anime_heroine, gpu, pixel};
+use crate::support::{Shoot, Shot, staged};
 
 const SHADING: [Channel; 10] = [
     Channel::Look("face-shadow"),
@@ -28,12 +29,12 @@ fn share(image: &Image) -> f64 {
 fn every_channel_shows_its_part() {
     let (gpu, scene) = (gpu(), anime_heroine());
     let mut renderer = Renderer::new(&gpu).expect("a renderer");
-    let mut uploaded = renderer.upload(&scene).expect("an upload");
-    let mut view = View::framed(&scene, Framing::Face, 0.0, [256, 256]);
+    let mut uploaded = staged(renderer.upload(&scene));
+    let mut view = Shot::framed(&scene, Framing::Face, 0.0, [256, 256]);
     view.lights.directional.to_light = glam::Vec3::new(-0.9, 0.3, 0.24).normalize();
-    let before = renderer.render(&mut uploaded, &view).expect("a picture");
+    let before = renderer.shoot(&mut uploaded, &view).expect("a picture");
     let pictures =
-        SHADING.map(|channel| renderer.render(&mut uploaded, &View { channel, ..view.clone() }).expect("a channel"));
+        SHADING.map(|channel| renderer.shoot(&mut uploaded, &Shot { channel, ..view.clone() }).expect("a channel"));
     // Face, ramp, fur, paint, highlight, bangs, layer, rim, eyes, own shadow: how much of a portrait each covers.
     let ranges = [
         (0.2, 0.9),
@@ -59,7 +60,7 @@ fn every_channel_shows_its_part() {
     let [lit, dark] = [112, 146].map(|x| pixel(&pictures[0], x, 205)[0]);
     assert!(lit > 240 && dark < 40, "{lit} and {dark}");
     // The picture itself is as it was.
-    let after = renderer.render(&mut uploaded, &view).expect("a picture");
+    let after = renderer.shoot(&mut uploaded, &view).expect("a picture");
     assert!(before == after, "a channel has changed the picture");
 }
 
@@ -71,9 +72,9 @@ fn the_transition_is_shown_where_no_ramp_is() {
         material.transition = material.shade_ramp.take().and(Some(hikage::material::Transition::default()));
     }
     let mut renderer = Renderer::new(&gpu).expect("a renderer");
-    let mut uploaded = renderer.upload(&scene).expect("an upload");
-    let view = View { channel: Channel::Look("transition"), ..View::framed(&scene, Framing::Face, 0.0, [256, 256]) };
-    let share = share(&renderer.render(&mut uploaded, &view).expect("a channel"));
+    let mut uploaded = staged(renderer.upload(&scene));
+    let view = Shot { channel: Channel::Look("transition"), ..Shot::framed(&scene, Framing::Face, 0.0, [256, 256]) };
+    let share = share(&renderer.shoot(&mut uploaded, &view).expect("a channel"));
     assert!((0.05..0.99).contains(&share), "{share}");
 }
 
@@ -83,10 +84,10 @@ fn a_plain_look_has_empty_channels() {
     let gpu = gpu();
     let scene = support::heroine();
     let mut renderer = Renderer::new(&gpu).expect("a renderer");
-    let mut uploaded = renderer.upload(&scene).expect("an upload");
-    let view = View::framed(&scene, Framing::Face, 0.0, [96, 96]);
+    let mut uploaded = staged(renderer.upload(&scene));
+    let view = Shot::framed(&scene, Framing::Face, 0.0, [96, 96]);
     for channel in SHADING.into_iter().skip(1) {
-        let picture = renderer.render(&mut uploaded, &View { channel, ..view.clone() }).expect("a channel");
+        let picture = renderer.shoot(&mut uploaded, &Shot { channel, ..view.clone() }).expect("a channel");
         assert_eq!(share(&picture), 0.0, "{channel:?}");
     }
 }

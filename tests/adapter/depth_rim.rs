@@ -3,8 +3,9 @@
 use glam::Vec3;
 use hikage::material::{Base, DepthRim, Material, Shading, Toon};
 use hikage::scene::Image;
-use hikage::{Background, Channel, View, color::Srgb};
+use hikage::{Background, Channel, color::Srgb};
 
+use crate::support::Shot;
 use crate::support::{Lent, gpu, pixel, render, scene, sphere, square, view};
 
 fn rimmed(width_px: f32) -> Material {
@@ -12,9 +13,9 @@ fn rimmed(width_px: f32) -> Material {
     Material { depth_rim, shading: Shading::Toon(Toon::default()), ..Material::default() }
 }
 
-fn channel(gpu: &Lent, material: Material, view: &View, radius: f32) -> Image {
+fn channel(gpu: &Lent, material: Material, view: &Shot, radius: f32) -> Image {
     let view =
-        View { channel: Channel::Look("depth-rim"), background: Background::Color(Srgb([0; 3])), ..view.clone() };
+        Shot { channel: Channel::Look("depth-rim"), background: Background::Color(Srgb([0; 3])), ..view.clone() };
     render(gpu, &scene(vec![(sphere(radius, 96, 192), material)]), &view)
 }
 
@@ -66,7 +67,7 @@ fn the_rim_is_on_the_side_of_the_light_and_on_contours_alone() {
         let mut plate = square([0.0, 0.0], 0.05, 0.0);
         plate.normals = vec![[0.8, 0.0, 0.6]; 4];
         let parts = vec![(plate, rimmed(8.0)), (square([0.0, 0.0], 0.5, -gap), Material::default())];
-        let shown = View { channel: Channel::Look("depth-rim"), ..lit.clone() };
+        let shown = Shot { channel: Channel::Look("depth-rim"), ..lit.clone() };
         let image = render(&gpu, &scene(parts), &shown);
         (0..256).filter(|x| pixel(&image, *x, 128)[0] > 128).collect::<Vec<u32>>()
     };

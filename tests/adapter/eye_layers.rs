@@ -1,11 +1,12 @@
 //! Flat eyes: cards that lie on one another, lights that stay lit, shadows of lids, and another iris at run time.
 
 use glam::Vec3;
+use hikage::Renderer;
 use hikage::material::{Base, Layer, Material, Shading, TextureRef, Toon};
 use hikage::scene::{Framing, Image, Role, Scene};
-use hikage::{Renderer, View};
 
 use crate::support::{self, gpu, pixel, render, scene, square, texture, view};
+use crate::support::{Shoot, Shot, staged};
 
 const COLORS: [[f32; 3]; 4] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 1.0, 0.0]];
 
@@ -39,14 +40,14 @@ fn cards_in_one_plane_keep_their_order_at_any_distance() {
     let gpu = gpu();
     let cards = stack([Some(0), Some(1), Some(2), Some(3)]);
     let mut renderer = Renderer::new(&gpu).expect("a renderer");
-    let mut uploaded = renderer.upload(&cards).expect("an upload");
+    let mut uploaded = staged(renderer.upload(&cards));
     for distance in [0.3, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0] {
         for yaw in [-60f32, -25.0, 0.0, 40.0] {
             let mut view = view(64, distance);
             view.camera.eye = Vec3::new(yaw.to_radians().sin(), 0.3, yaw.to_radians().cos()).normalize() * distance;
             view.camera.fov_y_rad = 2.0 * (0.014f32 / distance).atan();
             view.camera.near = (distance * 0.05).min(0.1);
-            let image = renderer.render(&mut uploaded, &view).expect("a picture");
+            let image = renderer.shoot(&mut uploaded, &view).expect("a picture");
             let is = |p: [u8; 4], c: [f32; 3]| (0..3).all(|i| p[i] == if c[i] > 0.5 { 255 } else { 0 });
             let center = (0..64).flat_map(|y| (0..64).map(move |x| (x, y)));
             let counts = center.fold([0usize; 4], |mut counts, (x, y)| {
@@ -107,19 +108,19 @@ fn another_picture_takes_the_place_of_a_card() {
     let map: TextureRef = texture(&mut cards, 4, 4, |_, _| [255, 0, 0, 255]);
     cards.materials[0].base.texture = Some(map);
     let mut renderer = Renderer::new(&gpu).expect("a renderer");
-    let mut uploaded = renderer.upload(&cards).expect("an upload");
-    let look = |renderer: &mut Renderer, uploaded: &mut hikage::GpuScene| {
-        pixel(&renderer.render(uploaded, &view(16, 2.0)).expect("a picture"), 8, 8)
+    let mut uploaded = staged(renderer.upload(&cards));
+    let look = |renderer: &mut Renderer, uploaded: &mut hikage::Stage| {
+        pixel(&renderer.shoot(uploaded, &view(16, 2.0)).expect("a picture"), 8, 8)
     };
     assert_eq!(look(&mut renderer, &mut uploaded), [255, 0, 0, 255]);
     let green = Image { width: 2, height: 2, pixels: [0, 255, 0, 255].repeat(4), ..Image::default() };
-    renderer.replace_base_texture(&mut uploaded, 0, &green).expect("another picture");
+    renderer.replace_base_texture(&mut uploaded, 0, 0, &green).expect("another picture");
     assert_eq!(look(&mut renderer, &mut uploaded), [0, 255, 0, 255]);
     let fault = |result: hikage::Result<()>| result.expect_err("refused").to_string();
-    assert!(fault(renderer.replace_base_texture(&mut uploaded, 1, &green)).contains("no base texture"));
-    assert!(fault(renderer.replace_base_texture(&mut uploaded, 7, &green)).contains("is not there"));
+    assert!(fault(renderer.replace_base_texture(&mut uploaded, 0, 1, &green)).contains("no base texture"));
+    assert!(fault(renderer.replace_base_texture(&mut uploaded, 0, 7, &green)).contains("is not there"));
     let torn = Image { width: 3, ..green };
-    assert!(fault(renderer.replace_base_texture(&mut uploaded, 0, &torn)).contains("width * height"));
+    assert!(fault(renderer.replace_base_texture(&mut uploaded, 0, 0, &torn)).contains("width * height"));
 }
 
 /// Lids and lashes darken the upper part of the eyes, and nothing else.
@@ -139,7 +140,7 @@ fn lids_shade_the_eyes() {
             }
         }
     }
-    let mut view = View::framed(&with, Framing::Face, 0.0, [256, 256]);
+    let mut view = Shot::framed(&with, Framing::Face, 0.0, [256, 256]);
     view.lights.directional.to_light = Vec3::new(0.1, 0.7, 0.7).normalize();
     let [with, without] = [&with, &without].map(|scene| render(&gpu, scene, &view));
     let darker: Vec<u32> = (0..256 * 256u32)

@@ -1,9 +1,10 @@
 //! Eyes and brows through the bangs, on a whole character.
 
 use glam::Mat4;
+use hikage::Channel;
 use hikage::scene::{EyesThrough, Framing, Image, Scene};
-use hikage::{Channel, View};
 
+use crate::support::Shot;
 use crate::support::{self, gpu, render};
 
 fn heroine(through: Option<EyesThrough>) -> Scene {
@@ -17,8 +18,8 @@ fn seen(opacity: f32) -> Option<EyesThrough> {
     Some(EyesThrough { opacity, ..EyesThrough::default() })
 }
 
-fn face(scene: &Scene, yaw_deg: f32) -> View {
-    View::framed(scene, Framing::Face, yaw_deg.to_radians(), [256, 256])
+fn face(scene: &Scene, yaw_deg: f32) -> Shot {
+    Shot::framed(scene, Framing::Face, yaw_deg.to_radians(), [256, 256])
 }
 
 /// Pixels that differ.
@@ -42,7 +43,7 @@ fn hair_is_the_same_to_the_bit_but_before_eyes_and_brows() {
         assert!((64..192).contains(&x) && (110..190).contains(&y), "{x}, {y} changed");
     }
     // What changes lies in hair.
-    let ids = render(&gpu, &bare, &View { channel: Channel::PartId, ..view.clone() });
+    let ids = render(&gpu, &bare, &Shot { channel: Channel::PartId, ..view.clone() });
     let hair: Vec<u8> = bare
         .mesh_nodes()
         .filter(|(_, mesh)| !mesh.primitives.is_empty())

@@ -8,9 +8,10 @@ use hikage::material::{AngleMapping, FaceShadow};
 use hikage::motion::Pose;
 use hikage::scene::{Ambient, Framing, HumanBone, Image, Role, Scene};
 use hikage::sdf::FaceMap;
-use hikage::{Look, Renderer, View};
+use hikage::{Look, Renderer};
 
 use crate::support::{self, Lent, gpu};
+use crate::support::{Shoot, Shot, staged};
 
 fn heroine() -> Scene {
     let mut scene = support::anime_heroine();
@@ -22,16 +23,16 @@ fn heroine() -> Scene {
     scene
 }
 
-fn draw(gpu: &Lent, scene: &Scene, pose: &Pose, view: &View) -> Image {
+fn draw(gpu: &Lent, scene: &Scene, pose: &Pose, view: &Shot) -> Image {
     support::with_renderer(gpu, |renderer| {
-        let mut uploaded = renderer.upload(scene).expect("an upload");
-        uploaded.set_pose(scene, pose).expect("a pose of it");
-        renderer.render(&mut uploaded, view).expect("a picture")
+        let mut uploaded = staged(renderer.upload(scene));
+        uploaded.actors[0].pose = pose.clone();
+        renderer.shoot(&mut uploaded, view).expect("a picture")
     })
 }
 
 /// Light from an angle to the character's left, level.
-fn lit_from(view: &View, degrees: f32) -> View {
+fn lit_from(view: &Shot, degrees: f32) -> Shot {
     let mut view = view.clone();
     let (s, c) = degrees.to_radians().sin_cos();
     view.lights.directional.to_light = Vec3::new(s, 0.0, c);
@@ -39,10 +40,10 @@ fn lit_from(view: &View, degrees: f32) -> View {
 }
 
 /// Of the whole character: what of her is drawn does not move it.
-fn portrait() -> View {
-    static VIEW: OnceLock<View> = OnceLock::new();
+fn portrait() -> Shot {
+    static VIEW: OnceLock<Shot> = OnceLock::new();
     let framed = || {
-        let mut view = View::framed(&support::heroine(), Framing::Face, 0.0, [192, 192]);
+        let mut view = Shot::framed(&support::heroine(), Framing::Face, 0.0, [192, 192]);
         view.lights.ambient = Ambient::uniform(LinearRgb::splat(0.1));
         view
     };
@@ -131,11 +132,11 @@ fn a_sweep_of_the_light_never_goes_back() {
     }
     let view = portrait();
     let mut renderer = Renderer::new(&gpu).expect("a renderer");
-    let mut uploaded = renderer.upload(&scene).expect("an upload");
+    let mut uploaded = staged(renderer.upload(&scene));
     let mut last: Option<Vec<u8>> = None;
     let (mut brightest, mut darkest) = (0u8, 255u8);
     for degrees in 0..=180 {
-        let image = renderer.render(&mut uploaded, &lit_from(&view, degrees as f32)).expect("a picture");
+        let image = renderer.shoot(&mut uploaded, &lit_from(&view, degrees as f32)).expect("a picture");
         let now: Vec<u8> = cheeks(&image).into_iter().map(|p| p[1]).collect();
         if let Some(last) = &last {
             let grown = last.iter().zip(&now).filter(|(a, b)| **b > a.saturating_add(1)).count();

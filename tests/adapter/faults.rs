@@ -3,9 +3,9 @@
 use hikage::material::TextureRef;
 use hikage::motion::Pose;
 use hikage::scene::{Camera, Framing, Node, PunctualLight, Scene, SpotCone, Transform};
-use hikage::{Background, Error, Gpu, Output, Renderer, View, color::LinearRgb, color::Srgb};
+use hikage::{Actor, Background, Error, Gpu, Output, Renderer, Stage, View, color::LinearRgb, color::Srgb};
 
-use crate::support::{anime_heroine, gpu, scene, sphere, texture, two_tone, view};
+use crate::support::{Shoot, Shot, anime_heroine, gpu, scene, sphere, staged, texture, two_tone, view};
 use glam::{Mat4, Quat, Vec3};
 
 fn ball() -> Scene {
@@ -59,7 +59,7 @@ fn frames_of_one_submit_keep_their_views_poses_and_colours() {
     let gpu = gpu();
     let scene = ball();
     let mut renderer = Renderer::new(&gpu).expect("a renderer");
-    let mut uploaded = renderer.upload(&scene).expect("an upload");
+    let mut stage = staged(renderer.upload(&scene));
     let mut moved = Pose::rest(&scene);
     moved.locals[0].translation.x = 0.4;
     let mut blue = scene.materials[0].clone();
@@ -70,37 +70,25 @@ fn frames_of_one_submit_keep_their_views_poses_and_colours() {
     lit.lights.directional.to_light = Vec3::new(1.0, 0.2, 0.1);
     let frames = [(Pose::rest(&scene), view(256, 2.0)), (moved, view(256, 3.0)), (painted, lit)];
 
-    let format = Output::default().format;
-    let targets: Vec<_> = frames.iter().map(|_| target(&gpu, [256; 2], format, 1)).collect();
-    let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-    for ((pose, view), target) in frames.iter().zip(&targets) {
-        uploaded.set_pose(&scene, pose).expect("a pose of it");
-        let target = target.create_view(&wgpu::TextureViewDescriptor::default());
-        renderer.encode_frame(&mut encoder, &mut uploaded, view, &target).expect("a frame");
+    let mut encode = |encoder: &mut wgpu::CommandEncoder, stage: &mut Stage, (pose, shot): &(Pose, Shot)| {
+        let target = target(&gpu, shot.size, Output::default().format, 1);
+        stage.actors[0].pose.clone_from(pose);
+        shot.set(stage);
+        let into = target.create_view(&wgpu::TextureViewDescriptor::default());
+        renderer.prepare(encoder, stage).expect("a stage");
+        renderer.draw(encoder, stage, &shot.view(), &into).expect("a frame");
+        target
+    };
+    let encoder = || gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+    let mut together = encoder();
+    let targets: Vec<_> = frames.iter().map(|frame| encode(&mut together, &mut stage, frame)).collect();
+    gpu.queue.submit([together.finish()]);
+    for (frame, target) in frames.iter().zip(&targets) {
+        let mut alone = encoder();
+        let single = encode(&mut alone, &mut stage, frame);
+        gpu.queue.submit([alone.finish()]);
+        assert!(texels(&gpu, target) == texels(&gpu, &single), "another frame's numbers");
     }
-    gpu.queue.submit([encoder.finish()]);
-    for ((pose, view), target) in frames.iter().zip(&targets) {
-        let alone = target_of(&gpu, &mut renderer, &mut uploaded, &scene, pose, view);
-        assert!(texels(&gpu, target) == alone, "another frame's numbers");
-    }
-}
-
-/// Texels of a frame with a submit of its own.
-fn target_of(
-    gpu: &Gpu,
-    renderer: &mut Renderer,
-    uploaded: &mut hikage::GpuScene,
-    scene: &Scene,
-    pose: &Pose,
-    view: &View,
-) -> Vec<u8> {
-    let target = target(gpu, view.size, Output::default().format, 1);
-    uploaded.set_pose(scene, pose).expect("a pose of it");
-    let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-    let into = target.create_view(&wgpu::TextureViewDescriptor::default());
-    renderer.encode_frame(&mut encoder, uploaded, view, &into).expect("a frame");
-    gpu.queue.submit([encoder.finish()]);
-    texels(gpu, &target)
 }
 
 #[test]
@@ -109,12 +97,12 @@ fn every_output_that_is_read_back_gives_the_same_picture() {
     let mut scene = ball();
     scene.materials[0].base.color = [0.9, 0.3, 0.1, 1.0];
     for background in [Background::Transparent, Background::Color(Srgb([40, 90, 200]))] {
-        let view = View { background, ..view(64, 2.0) };
+        let shot = Shot { background, ..view(64, 2.0) };
         // Samples of an encoded target are resolved on encoded values.
         let of = |format| {
             let mut renderer = Renderer::with_output(&gpu, Output { format, samples: 1 }).expect("a renderer");
-            let mut uploaded = renderer.upload(&scene).expect("an upload");
-            renderer.render(&mut uploaded, &view).expect("a picture").pixels
+            let mut stage = staged(renderer.upload(&scene));
+            renderer.shoot(&mut stage, &shot).expect("a picture").pixels
         };
         use wgpu::TextureFormat as F;
         let expected = of(F::Rgba8UnormSrgb);
@@ -127,8 +115,8 @@ fn every_output_that_is_read_back_gives_the_same_picture() {
     }
     let format = wgpu::TextureFormat::R8Unorm;
     let mut renderer = Renderer::with_output(&gpu, Output { format, samples: 1 }).expect("a renderer");
-    let mut uploaded = renderer.upload(&scene).expect("an upload");
-    let message = argument(renderer.render(&mut uploaded, &view(64, 2.0)));
+    let mut stage = staged(renderer.upload(&scene));
+    let message = argument(renderer.shoot(&mut stage, &view(64, 2.0)));
     assert!(message.contains("R8Unorm") && message.contains("expected Rgba8Unorm"), "{message}");
 }
 
@@ -137,7 +125,7 @@ fn targets_and_scenes_that_do_not_fit_are_refused() {
     let gpu = gpu();
     let scene = ball();
     let mut renderer = Renderer::new(&gpu).expect("a renderer");
-    let mut uploaded = renderer.upload(&scene).expect("an upload");
+    let mut stage = staged(renderer.upload(&scene));
     let format = Output::default().format;
     let other = wgpu::TextureFormat::Bgra8Unorm;
     for (target, word) in [
@@ -147,15 +135,16 @@ fn targets_and_scenes_that_do_not_fit_are_refused() {
     ] {
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         let target = target.create_view(&wgpu::TextureViewDescriptor::default());
-        let message = argument(renderer.encode_frame(&mut encoder, &mut uploaded, &view(64, 2.0), &target));
+        renderer.prepare(&mut encoder, &mut stage).expect("a stage");
+        let message = argument(renderer.draw(&mut encoder, &stage, &view(64, 2.0).view(), &target));
         assert!(message.contains(word), "{message}");
     }
     let mut single = Renderer::with_output(&gpu, Output { samples: 1, ..Output::default() }).expect("a renderer");
-    let message = argument(single.render(&mut uploaded, &view(64, 2.0)));
+    let message = argument(single.shoot(&mut stage, &view(64, 2.0)));
     assert!(message.contains("another output") && message.contains("upload it"), "{message}");
     let elsewhere = Gpu::headless(Some(&gpu.info().name)).expect("a second device");
     let mut there = Renderer::new(&elsewhere).expect("a renderer");
-    let message = argument(there.render(&mut uploaded, &view(64, 2.0)));
+    let message = argument(there.shoot(&mut stage, &view(64, 2.0)));
     assert!(message.contains("another device"), "{message}");
 }
 
@@ -205,7 +194,7 @@ fn poses_places_and_lights_that_are_none_are_refused() {
     let gpu = gpu();
     let scene = ball();
     let mut renderer = Renderer::new(&gpu).expect("a renderer");
-    let mut uploaded = renderer.upload(&scene).expect("an upload");
+    let mut stage = staged(renderer.upload(&scene));
     let rest = Pose::rest(&scene);
     let mut turned = rest.clone();
     turned.locals[0].rotation = Quat::from_xyzw(f32::NAN, 0.0, 0.0, 1.0);
@@ -218,13 +207,13 @@ fn poses_places_and_lights_that_are_none_are_refused() {
         (stranger, "pose.locals: has 2 nodes; the scene has 1"),
         (painted, "pose.materials[9]: there are 1"),
     ] {
-        let message = argument(uploaded.set_pose(&scene, &pose));
-        assert!(message.contains(words), "{message}");
+        stage.actors[0].pose = pose;
+        let message = argument(renderer.shoot(&mut stage, &view(64, 2.0)));
+        assert!(message.contains("actors[0].") && message.contains(words), "{message}");
     }
-    let message = argument(uploaded.set_pose(&Scene::default(), &Pose::default()));
-    assert!(message.contains("has 0 nodes and 0 materials"), "{message}");
+    stage.actors[0].pose = rest;
 
-    type Break = fn(&mut View);
+    type Break = fn(&mut Shot);
     let lamp = PunctualLight {
         position: Vec3::ONE,
         color: LinearRgb::WHITE,
@@ -235,22 +224,22 @@ fn poses_places_and_lights_that_are_none_are_refused() {
     let cases: [(&str, Break); 6] = [
         ("directional light: has no direction", |v| v.lights.directional.to_light = Vec3::ZERO),
         ("lights: a colour", |v| v.lights.directional.intensity = f32::NAN),
-        ("instances[0]: is not finite", |v| v.instances[0] = Mat4::from_scale(Vec3::splat(f32::NAN))),
-        ("instances[0]: is not finite, or flat", |v| v.instances[0] = Mat4::ZERO),
+        ("actors[0].world: is not finite", |v| v.instances[0] = Mat4::from_scale(Vec3::splat(f32::NAN))),
+        ("actors[0].world: is not finite, or flat", |v| v.instances[0] = Mat4::ZERO),
         ("time: is NaN", |v| v.time_s = f32::NAN),
         ("camera: eye", |v| v.camera = Camera { eye: v.camera.target, ..v.camera }),
     ];
     for (words, broken) in cases {
         let mut view = view(64, 2.0);
         broken(&mut view);
-        let message = argument(renderer.render(&mut uploaded, &view));
+        let message = argument(renderer.shoot(&mut stage, &view));
         assert!(message.contains(words), "{message}");
     }
     let mut spotted = view(64, 2.0);
     spotted.lights.punctual = vec![lamp];
-    assert!(argument(renderer.render(&mut uploaded, &spotted)).contains("punctual light 0"));
+    assert!(argument(renderer.shoot(&mut stage, &spotted)).contains("punctual light 0"));
     spotted.lights.punctual = vec![PunctualLight { spot: None, ..lamp }; 5];
-    assert!(argument(renderer.render(&mut uploaded, &spotted)).contains("at most 4"));
+    assert!(argument(renderer.shoot(&mut stage, &spotted)).contains("at most 4"));
 }
 
 #[test]
@@ -279,9 +268,9 @@ fn a_device_that_is_too_small_is_told_what_it_lacks() {
     let scene = anime_heroine();
     let view = View::framed(&scene, Framing::Face, 0.2, [64, 64]);
     let mut renderers = [1, 2].map(|_| Renderer::new(&shared).expect("a renderer"));
-    let mut uploaded = renderers.each_mut().map(|r| r.upload(&scene).expect("an upload"));
-    let drawn = |(r, u): (&mut Renderer, &mut hikage::GpuScene)| r.render(u, &view).expect("a picture").pixels;
-    let pictures: Vec<_> = renderers.iter_mut().zip(&mut uploaded).map(drawn).collect();
+    let mut stages = renderers.each_mut().map(|r| Stage::of([Actor::new(&r.upload(&scene).expect("an upload"))]));
+    let drawn = |(r, stage): (&mut Renderer, &mut Stage)| r.render(stage, &view).expect("a picture").pixels;
+    let pictures: Vec<_> = renderers.iter_mut().zip(&mut stages).map(drawn).collect();
     assert!(pictures[0] == pictures[1], "another picture");
 }
 
@@ -290,10 +279,10 @@ fn a_lost_device_says_so() {
     let gpu = Gpu::headless(Some(&gpu().info().name)).expect("a device of its own");
     let scene = ball();
     let mut renderer = Renderer::new(&gpu).expect("a renderer");
-    let mut uploaded = renderer.upload(&scene).expect("an upload");
-    renderer.render(&mut uploaded, &view(64, 2.0)).expect("a picture");
+    let mut stage = staged(renderer.upload(&scene));
+    renderer.shoot(&mut stage, &view(64, 2.0)).expect("a picture");
     gpu.device.destroy();
-    for result in [renderer.render(&mut uploaded, &view(64, 2.0)).map(|_| ()), renderer.upload(&scene).map(|_| ())] {
+    for result in [renderer.shoot(&mut stage, &view(64, 2.0)).map(|_| ()), renderer.upload(&scene).map(|_| ())] {
         let error = result.expect_err("there is no device any more");
         assert!(matches!(&error, Error::Gpu(m) if m.contains("lost")), "{error}");
     }

@@ -3,8 +3,9 @@
 use std::path::Path;
 
 use hikage::scene::Framing;
-use hikage::{Gpu, Look, Renderer, View, import};
+use hikage::{Gpu, Look, Renderer, import};
 
+use crate::support::{Shoot, Shot, staged};
 use crate::support::{anime_heroine, gpu, render};
 
 /// The adapter of the tests with no limit above the defaults.
@@ -26,11 +27,11 @@ fn default_device(name: &str) -> Gpu {
 fn the_anime_look_draws_the_same_on_a_device_with_the_default_limits() {
     let lent = gpu();
     let scene = anime_heroine();
-    let view = View::framed(&scene, Framing::Portrait, 0.4, [128, 128]);
+    let view = Shot::framed(&scene, Framing::Portrait, 0.4, [128, 128]);
     let least = default_device(&lent.info().name);
     let mut renderer = Renderer::new(&least).expect("a renderer");
-    let mut uploaded = renderer.upload(&scene).expect("an upload");
-    let picture = renderer.render(&mut uploaded, &view).expect("a picture");
+    let mut uploaded = staged(renderer.upload(&scene));
+    let picture = renderer.shoot(&mut uploaded, &view).expect("a picture");
     assert!(picture.pixels == render(&lent, &scene, &view).pixels, "another picture");
 }
 

@@ -2,8 +2,9 @@
 
 use hikage::material::{Material, Section, TextureRef, register};
 use hikage::scene::{Image, Scene};
-use hikage::{Channel, Gpu, LookFile, Renderer, View};
+use hikage::{Channel, Gpu, LookFile, Renderer};
 
+use crate::support::{Shoot, Shot, staged};
 use crate::support::{gpu, scene, sphere, two_tone, view};
 
 macro_rules! tint {
@@ -121,10 +122,10 @@ fn broken_numbers_shine(s: Surface, l: Shaded) -> Shaded {
 );
 
 /// A ball in front of the camera, by a renderer that was made after the registration.
-fn picture(gpu: &Gpu, scene: &Scene, view: &View) -> Image {
+fn picture(gpu: &Gpu, scene: &Scene, view: &Shot) -> Image {
     let mut renderer = Renderer::new(gpu).expect("a renderer");
-    let mut uploaded = renderer.upload(scene).expect("an upload");
-    renderer.render(&mut uploaded, view).expect("a picture")
+    let mut uploaded = staged(renderer.upload(scene));
+    renderer.shoot(&mut uploaded, view).expect("a picture")
 }
 
 #[test]
@@ -142,7 +143,7 @@ fn a_section_of_an_application_draws_by_its_look_file_and_has_a_channel() {
     assert_eq!((tint.share, tint.color), (0.5, [0.0, 1.0, 0.0]));
 
     let channel = Channel::from_name("own_tint-share").expect("a channel");
-    let shown = picture(&gpu, &scene, &View { channel, ..view(64, 2.0) });
+    let shown = picture(&gpu, &scene, &Shot { channel, ..view(64, 2.0) });
     let middle = (32 * 64 + 32) * 4;
     // Half of linear white lies between two codes.
     assert!(shown.pixels[middle..middle + 3].iter().all(|c| [187, 188].contains(c)), "{:?}", &shown.pixels[middle..]);
@@ -224,7 +225,7 @@ fn a_section_of_an_application_leaves_samples_out() {
     register::<OwnHoles>().expect("valid");
     let gpu = gpu();
     let mut scene = scene(vec![(sphere(0.5, 32, 64), two_tone())]);
-    let view = View { background: hikage::Background::Transparent, ..view(64, 2.0) };
+    let view = Shot { background: hikage::Background::Transparent, ..view(64, 2.0) };
     for (holes, is_there) in [(OwnHoles::half(), true), (OwnHoles::default(), false)] {
         scene.materials[0].set_own(Some(holes));
         assert_eq!(picture(&gpu, &scene, &view).pixels.iter().any(|c| *c > 0), is_there);

@@ -1,11 +1,12 @@
 //! The shadow of a character on itself.
 
 use glam::{Mat4, Vec3};
+use hikage::Channel;
 use hikage::color::LinearRgb;
 use hikage::material::{CastShadow, Material};
 use hikage::scene::{Ambient, Framing, Image, Scene, SelfShadow};
-use hikage::{Channel, View};
 
+use crate::support::{Shoot, Shot, staged};
 use crate::support::{anime_heroine, gpu, pixel, render, scene, sphere, square, two_tone, view};
 
 fn with_shadow(received: f32, casts: bool) -> Material {
@@ -19,7 +20,7 @@ fn wall(caster: Material, wall: Material) -> Scene {
 }
 
 /// From the front, with light that throws a shadow to the left and downwards by as much as the caster is away.
-fn before_the_wall() -> View {
+fn before_the_wall() -> Shot {
     let mut view = view(256, 8.0);
     view.camera.fov_y_rad = 2.0 * (0.8f32 / 8.0).atan();
     view.lights.directional.to_light = Vec3::new(1.0, 1.0, 1.0).normalize();
@@ -101,7 +102,7 @@ fn each_of_a_crowd_casts_on_itself() {
 fn maps_follow_light_pose_and_places() {
     let gpu = gpu();
     let scene = anime_heroine();
-    let mut view = View::framed(&scene, Framing::Bust, 0.0, [96, 96]);
+    let mut view = Shot::framed(&scene, Framing::Bust, 0.0, [96, 96]);
     let mut views = vec![view.clone()];
     view.lights.directional.to_light = Vec3::new(-0.8, 0.5, 0.3).normalize();
     views.push(view.clone());
@@ -109,19 +110,19 @@ fn maps_follow_light_pose_and_places() {
     views.push(view.clone());
     views.push(views[0].clone());
     let mut renderer = hikage::Renderer::new(&gpu).expect("a renderer");
-    let mut used = renderer.upload(&scene).expect("an upload");
+    let mut used = staged(renderer.upload(&scene));
     for (i, view) in views.iter().enumerate() {
-        let again = renderer.render(&mut used, view).expect("a picture");
-        let mut fresh = renderer.upload(&scene).expect("an upload");
-        assert!(again == renderer.render(&mut fresh, view).expect("a picture"), "view {i} shows an older shadow");
+        let again = renderer.shoot(&mut used, view).expect("a picture");
+        let mut fresh = staged(renderer.upload(&scene));
+        assert!(again == renderer.shoot(&mut fresh, view).expect("a picture"), "view {i} shows an older shadow");
     }
     let mut pose = hikage::motion::Pose::rest(&scene);
     pose.set_stance(&scene, hikage::motion::Stance::Bend);
-    used.set_pose(&scene, &pose).expect("a pose of it");
-    let bent = renderer.render(&mut used, &views[0]).expect("a picture");
-    let mut fresh = renderer.upload(&scene).expect("an upload");
-    fresh.set_pose(&scene, &pose).expect("a pose of it");
-    assert!(bent == renderer.render(&mut fresh, &views[0]).expect("a picture"), "a pose shows an older shadow");
+    used.actors[0].pose = pose.clone();
+    let bent = renderer.shoot(&mut used, &views[0]).expect("a picture");
+    let mut fresh = staged(renderer.upload(&scene));
+    fresh.actors[0].pose = pose.clone();
+    assert!(bent == renderer.shoot(&mut fresh, &views[0]).expect("a picture"), "a pose shows an older shadow");
 }
 
 /// On the whole heroine: her chin shades her neck, and nothing gets lighter.
@@ -131,11 +132,11 @@ fn the_chin_shades_the_neck() {
     // Where a terminator or the bangs' shadow is darker than shade, shade may be the lighter one.
     heroine.materials.iter_mut().for_each(|m| m.shade_ramp = None);
     heroine.bangs = None;
-    let mut view = View::framed(&heroine, Framing::Portrait, 0.0, [256, 256]);
+    let mut view = Shot::framed(&heroine, Framing::Portrait, 0.0, [256, 256]);
     view.lights.ambient = Ambient::uniform(LinearRgb::BLACK);
     view.lights.directional.to_light = Vec3::new(0.1, 0.8, 0.6).normalize();
     let with = render(&gpu, &heroine, &view);
-    let channel = render(&gpu, &heroine, &View { channel: Channel::Look("self-shadow"), ..view.clone() });
+    let channel = render(&gpu, &heroine, &Shot { channel: Channel::Look("self-shadow"), ..view.clone() });
     let without = render(&gpu, &Scene { self_shadow: None, ..heroine }, &view);
     let lighter = with.pixels.iter().zip(&without.pixels).filter(|(a, b)| a.saturating_sub(**b) > 2).count();
     let darker = with.pixels.iter().zip(&without.pixels).filter(|(a, b)| b.saturating_sub(**a) > 12).count();

@@ -2,7 +2,7 @@
 
 use glam::{Quat, Vec3};
 use hikage::{
-    Background, View,
+    Background,
     color::{LinearRgb, Srgb},
     golden::{Goldens, Tolerance},
     material::{
@@ -13,12 +13,13 @@ use hikage::{
     scene::{Ambient, Image, PunctualLight, Sampler, Scene, SpotCone, Wrap},
 };
 
+use crate::support::Shot;
 use crate::support::{cube, gpu, render, scene, sphere, square, texture, two_tone, view};
 
 /// Another driver may round edges and ramps differently, never more.
 const TOLERANCE: Tolerance = Tolerance { channel: 6, outliers: 0.004, blob: 12, drift: 1.0 };
 
-fn check(name: &str, scene: &Scene, view: &View) {
+fn check(name: &str, scene: &Scene, view: &Shot) {
     check_picture(name, &render(&gpu(), scene, view));
 }
 
@@ -43,7 +44,7 @@ fn row(materials: Vec<Material>) -> Scene {
 }
 
 /// A view that shows `count` spheres of [`row`].
-fn row_view(count: u32) -> View {
+fn row_view(count: u32) -> Shot {
     let mut view = view(128, 4.0);
     view.size = [128 * count, 128];
     // One sphere and its margin are one unit high.
@@ -76,7 +77,7 @@ fn quarters(x: u32, y: u32) -> [u8; 4] {
 }
 
 /// Panels of a scene under level light that turns from the front to behind, for warm, white and cool light below each other.
-fn check_sweep(name: &str, scene: &Scene, view: &View, coolness: &[f32]) {
+fn check_sweep(name: &str, scene: &Scene, view: &Shot, coolness: &[f32]) {
     let gpu = gpu();
     let mut rows = Vec::new();
     for coolness in coolness {

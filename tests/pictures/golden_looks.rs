@@ -1,6 +1,7 @@
 //! Pictures of the body looks that were looked at: a row of each over light from the left to behind.
 
 use glam::{Quat, Vec3};
+use hikage::Background;
 use hikage::color::{LinearRgb, Srgb};
 use hikage::golden::{Goldens, Tolerance};
 use hikage::material::{
@@ -8,9 +9,9 @@ use hikage::material::{
     InnerLines, Material, Outline, OutlineWidth, Shading, ShapedHighlight, Sparkle, Stocking, TextureRef, Toon,
 };
 use hikage::scene::{Ambient, Bloom, Image, Post, PunctualLight, Scene, ToneCurve};
-use hikage::{Background, View};
 
 use crate::support::{Lent, cube, gpu, render, scene, sphere, square, texture, two_tone, view, with_renderer};
+use crate::support::{Shoot, Shot, staged};
 
 /// Another driver may round edges and ramps differently, never more.
 const TOLERANCE: Tolerance = Tolerance { channel: 6, outliers: 0.006, blob: 16, drift: 1.0 };
@@ -53,7 +54,7 @@ fn averaged(image: &Image) -> Image {
 }
 
 /// Shows something of one metre from the front.
-fn panel_view() -> View {
+fn panel_view() -> Shot {
     let mut view = view(2 * PANEL, 10.0);
     view.camera.fov_y_rad = 2.0 * 0.06f32.atan();
     view.lights.ambient = Ambient::uniform(LinearRgb::splat(0.12));
@@ -61,9 +62,9 @@ fn panel_view() -> View {
 }
 
 /// A scene under light that comes round it; each picture by what `change` makes of its view.
-fn sweep(gpu: &Lent, scene: &Scene, change: impl Fn(&mut View, usize)) -> Image {
+fn sweep(gpu: &Lent, scene: &Scene, change: impl Fn(&mut Shot, usize)) -> Image {
     with_renderer(gpu, |renderer| {
-        let mut uploaded = renderer.upload(scene).expect("an upload");
+        let mut uploaded = staged(renderer.upload(scene));
         let pictures: Vec<Image> = [-60.0f32, -20.0, 30.0, 75.0, 115.0]
             .into_iter()
             .enumerate()
@@ -72,7 +73,7 @@ fn sweep(gpu: &Lent, scene: &Scene, change: impl Fn(&mut View, usize)) -> Image 
                 let mut view = panel_view();
                 view.lights.directional.to_light = Vec3::new(sin, 0.45, cos).normalize();
                 change(&mut view, i);
-                averaged(&renderer.render(&mut uploaded, &view).expect("a picture"))
+                averaged(&renderer.shoot(&mut uploaded, &view).expect("a picture"))
             })
             .collect();
         beside(&pictures)

@@ -3,9 +3,10 @@
 use glam::{Quat, Vec3};
 use hikage::motion::Pose;
 use hikage::scene::{Framing, HumanBone, Image, Scene};
-use hikage::{Background, GpuScene, Renderer, View, color::Srgb};
+use hikage::{Background, Renderer, Stage, color::Srgb};
 
 use crate::support::{self, Lent, gpu};
+use crate::support::{Shoot, Shot, staged};
 
 /// Pictures are drawn this much finer and averaged, so that what moves by less than a pixel changes by as much.
 const FINER: u32 = 3;
@@ -16,8 +17,8 @@ struct Sweep {
     _gpu: Lent,
     scene: Scene,
     renderer: Renderer,
-    uploaded: GpuScene,
-    view: View,
+    uploaded: Stage,
+    view: Shot,
 }
 
 impl Sweep {
@@ -29,14 +30,14 @@ impl Sweep {
             (material.diamond, material.sparkle) = (None, None);
         }
         let mut renderer = Renderer::new(&gpu).expect("a renderer");
-        let uploaded = renderer.upload(&scene).expect("an upload");
-        let mut view = View::framed(&scene, Framing::Face, 0.0, [SIDE * FINER; 2]);
+        let uploaded = staged(renderer.upload(&scene));
+        let mut view = Shot::framed(&scene, Framing::Face, 0.0, [SIDE * FINER; 2]);
         view.background = Background::Color(Srgb([0xdf, 0xe7, 0xee]));
         Self { _gpu: gpu, scene, renderer, uploaded, view }
     }
 
-    fn picture(&mut self, view: &View) -> Vec<u8> {
-        averaged(&self.renderer.render(&mut self.uploaded, view).expect("a picture"))
+    fn picture(&mut self, view: &Shot) -> Vec<u8> {
+        averaged(&self.renderer.shoot(&mut self.uploaded, view).expect("a picture"))
     }
 }
 
@@ -94,7 +95,7 @@ fn a_turning_head_does_not_pop() {
     for degrees in -90..=90 {
         let mut pose = Pose::rest(&sweep.scene);
         pose.locals[head].rotation = Quat::from_rotation_y((degrees as f32).to_radians());
-        sweep.uploaded.set_pose(&sweep.scene, &pose).expect("a pose of it");
+        sweep.uploaded.actors[0].pose = pose.clone();
         let view = sweep.view.clone();
         let now = sweep.picture(&view);
         if let Some(last) = &last {

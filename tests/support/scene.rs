@@ -6,12 +6,14 @@ use std::cell::RefCell;
 use std::ops::Deref;
 use std::sync::Mutex;
 
-use glam::Vec3;
+use glam::{Mat4, Vec3};
 use hikage::{
-    Background, Gpu, Output, Renderer, View,
+    Actor, Background, Channel, Character, Gpu, Output, Renderer, Stage, View,
     color::{LinearRgb, Srgb},
     material::{Base, Material, Shading, TextureRef, Toon},
-    scene::{Ambient, Camera, DirectionalLight, Image, Lights, Mesh, Node, Primitive, Role, Sampler, Scene, Texture},
+    scene::{
+        Ambient, Camera, DirectionalLight, Framing, Image, Lights, Mesh, Node, Primitive, Role, Sampler, Scene, Texture,
+    },
 };
 
 /// Devices that wait for a test, with their renderers. Not in a thread's own memory: drivers cannot be closed while that
@@ -196,9 +198,75 @@ pub fn square(center: [f32; 2], half: f32, z: f32) -> Primitive {
     }
 }
 
+/// A view with the light on it, and where a character stands in it.
+#[derive(Clone, Debug)]
+pub struct Shot {
+    pub size: [u32; 2],
+    pub camera: Camera,
+    pub lights: Lights,
+    pub background: Background,
+    pub time_s: f32,
+    pub channel: Channel,
+    /// An actor in the pose of the first one for each.
+    pub instances: Vec<Mat4>,
+}
+
+impl Default for Shot {
+    fn default() -> Self {
+        Self::of(View::default(), Lights::default())
+    }
+}
+
+impl Shot {
+    fn of(view: View, lights: Lights) -> Self {
+        let View { size, camera, background, channel } = view;
+        Self { size, camera, lights, background, time_s: 0.0, channel, instances: vec![Mat4::IDENTITY] }
+    }
+
+    /// A framing of a character at rest under the light of its scene.
+    pub fn framed(scene: &Scene, framing: Framing, yaw_rad: f32, size: [u32; 2]) -> Self {
+        Self::of(View::framed(scene, framing, yaw_rad, size), scene.lights.clone().unwrap_or_default())
+    }
+
+    pub fn view(&self) -> View {
+        View { size: self.size, camera: self.camera, background: self.background, channel: self.channel }
+    }
+
+    /// Sets a stage under its light, with an actor for each place.
+    pub fn set(&self, stage: &mut Stage) {
+        stage.actors.truncate(self.instances.len());
+        while let Some(first) = stage.actors.first().filter(|_| stage.actors.len() < self.instances.len()) {
+            let another = Actor::new(&first.character).posed(first.pose.clone());
+            stage.actors.push(another);
+        }
+        for (actor, world) in stage.actors.iter_mut().zip(&self.instances) {
+            actor.world = *world;
+        }
+        stage.lights.clone_from(&self.lights);
+        stage.time_s = self.time_s;
+    }
+}
+
+/// A stage with one actor of a character.
+pub fn staged(character: hikage::Result<Character>) -> Stage {
+    Stage::of([Actor::new(&character.expect("an upload"))])
+}
+
+/// Draws shots.
+pub trait Shoot {
+    fn shoot(&mut self, stage: &mut Stage, shot: &Shot) -> hikage::Result<Image>;
+}
+
+impl Shoot for Renderer {
+    fn shoot(&mut self, stage: &mut Stage, shot: &Shot) -> hikage::Result<Image> {
+        shot.set(stage);
+        self.render(stage, &shot.view())
+    }
+}
+
 /// A square picture of the origin from +Z at `distance`, lit from the upper left, without ambient light.
-pub fn view(size: u32, distance: f32) -> View {
-    View {
+pub fn view(size: u32, distance: f32) -> Shot {
+    Shot {
         size: [size, size],
         camera: Camera { eye: Vec3::Z * distance, target: Vec3::ZERO, ..Camera::default() },
         lights: Lights {
@@ -210,7 +278,7 @@ pub fn view(size: u32, distance: f32) -> View {
             ..Lights::default()
         },
         background: Background::Color(Srgb([0x80; 3])),
-        ..View::default()
+        ..Shot::default()
     }
 }
 
@@ -221,18 +289,18 @@ pub fn with_renderer<T>(gpu: &Lent, work: impl FnOnce(&mut Renderer) -> T) -> T 
 }
 
 /// Renders a scene with four samples.
-pub fn render(gpu: &Lent, scene: &Scene, view: &View) -> Image {
+pub fn render(gpu: &Lent, scene: &Scene, shot: &Shot) -> Image {
     with_renderer(gpu, |renderer| {
-        let mut uploaded = renderer.upload(scene).expect("an upload");
-        renderer.render(&mut uploaded, view).expect("a picture")
+        let mut stage = staged(renderer.upload(scene));
+        renderer.shoot(&mut stage, shot).expect("a picture")
     })
 }
 
 /// Renders a scene into a given output.
-pub fn render_with(gpu: &Gpu, scene: &Scene, view: &View, output: Output) -> Image {
+pub fn render_with(gpu: &Gpu, scene: &Scene, shot: &Shot, output: Output) -> Image {
     let mut renderer = Renderer::with_output(gpu, output).expect("a renderer");
-    let mut uploaded = renderer.upload(scene).expect("an upload");
-    renderer.render(&mut uploaded, view).expect("a picture")
+    let mut stage = staged(renderer.upload(scene));
+    renderer.shoot(&mut stage, shot).expect("a picture")
 }
 
 /// A pixel, from the top left.

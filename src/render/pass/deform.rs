@@ -1,7 +1,6 @@
 //! Morphs and skin in compute: once for every new pose, read by every later pass.
 
 use crate::render::bind;
-use crate::render::gpu_scene::GpuScene;
 use crate::render::shaders::Recipe;
 use crate::render::variants::Variants;
 use crate::render::vertex::{AffineRows, DeformGroup, DeformVertex, MorphEntry};
@@ -28,7 +27,18 @@ pub(crate) struct DeformInput<'a> {
     pub weight_count: usize,
 }
 
-/// Buffers of one scene.
+/// What deforms a character, whatever its pose.
+#[derive(Debug)]
+pub(crate) struct DeformSource {
+    fixed: [wgpu::Buffer; 5],
+    joints: u64,
+    weights: u64,
+    /// How many, and their bytes.
+    vertices: u32,
+    size: u64,
+}
+
+/// Buffers of one body.
 #[derive(Debug)]
 pub(crate) struct DeformBuffers {
     pub joints: wgpu::Buffer,
@@ -37,12 +47,31 @@ pub(crate) struct DeformBuffers {
     pub deformed: wgpu::Buffer,
     group: wgpu::BindGroup,
     vertices: u32,
-    fixed_bytes: u64,
 }
 
-/// What the pass reads and writes.
-pub(crate) struct DeformInputs<'a> {
-    pub scene: &'a GpuScene,
+impl DeformSource {
+    /// Uploads what deforms a character.
+    pub fn new(gpu: &Gpu, input: &DeformInput<'_>) -> Self {
+        let fixed = |label, contents| bind::filled(gpu, label, contents, wgpu::BufferUsages::STORAGE);
+        Self {
+            fixed: [
+                fixed("deform groups", bytemuck::cast_slice(input.groups)),
+                fixed("source vertices", bytemuck::cast_slice(input.source)),
+                fixed("vertex refs", bytemuck::cast_slice(input.vertex_refs)),
+                fixed("influences", bytemuck::cast_slice(input.influences)),
+                fixed("morphs", bytemuck::cast_slice(input.morphs)),
+            ],
+            joints: (input.joint_count * size_of::<AffineRows>()) as u64,
+            weights: (input.weight_count * size_of::<f32>()) as u64,
+            vertices: input.source.len() as u32,
+            size: size_of_val(input.source) as u64,
+        }
+    }
+
+    /// Bytes on the GPU.
+    pub fn bytes(&self) -> u64 {
+        self.fixed.iter().map(wgpu::Buffer::size).sum()
+    }
 }
 
 impl DeformPass {
@@ -58,46 +87,33 @@ impl DeformPass {
         Ok(Self { pipeline })
     }
 
-    /// Uploads what deforms a scene.
-    pub fn buffers(&self, gpu: &Gpu, input: &DeformInput<'_>) -> DeformBuffers {
+    /// Buffers of a body of a character.
+    pub fn buffers(&self, gpu: &Gpu, source: &DeformSource) -> DeformBuffers {
         use wgpu::BufferUsages as U;
-        let fixed = |label, contents| bind::filled(gpu, label, contents, U::STORAGE);
-        let sized = |label, bytes: usize, usage| bind::buffer(gpu, label, bytes.max(64) as u64, usage);
-        let groups = fixed("deform groups", bytemuck::cast_slice(input.groups));
-        let source = fixed("source vertices", bytemuck::cast_slice(input.source));
-        let vertex_refs = fixed("vertex refs", bytemuck::cast_slice(input.vertex_refs));
-        let influences = fixed("influences", bytemuck::cast_slice(input.influences));
-        let morphs = fixed("morphs", bytemuck::cast_slice(input.morphs));
-        let joints = sized("joints", input.joint_count * size_of::<AffineRows>(), U::STORAGE | U::COPY_DST);
-        let weights = sized("morph weights", input.weight_count * size_of::<f32>(), U::STORAGE | U::COPY_DST);
-        let deformed = sized("deformed vertices", size_of_val(input.source), U::STORAGE);
-        let bound = [&groups, &source, &vertex_refs, &influences, &morphs, &joints, &weights, &deformed];
+        let sized = |label, bytes: u64, usage| bind::buffer(gpu, label, bytes.max(64), usage);
+        let joints = sized("joints", source.joints, U::STORAGE | U::COPY_DST);
+        let weights = sized("morph weights", source.weights, U::STORAGE | U::COPY_DST);
+        let deformed = sized("deformed vertices", source.size, U::STORAGE);
+        let bound = source.fixed.iter().chain([&joints, &weights, &deformed]);
         let layout = self.pipeline.get_bind_group_layout(0);
-        let group = bind::group(gpu, "deform", &layout, bound.iter().map(|b| b.as_entire_binding()));
-        let fixed_bytes = bound[..5].iter().map(|b| b.size()).sum();
-        DeformBuffers { joints, weights, deformed, group, vertices: input.source.len() as u32, fixed_bytes }
+        let group = bind::group(gpu, "deform", &layout, bound.map(|b| b.as_entire_binding()));
+        DeformBuffers { joints, weights, deformed, group, vertices: source.vertices }
     }
 
-    /// Deforms all vertices of the scene.
-    pub fn encode(
+    /// Deforms all vertices of each of these bodies.
+    pub fn encode<'a>(
         &self,
         encoder: &mut wgpu::CommandEncoder,
-        inputs: &DeformInputs<'_>,
+        bodies: impl Iterator<Item = &'a DeformBuffers>,
         timestamps: Option<wgpu::ComputePassTimestampWrites<'_>>,
     ) {
-        let buffers = &inputs.scene.deform;
         let mut pass = encoder
             .begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("deform"), timestamp_writes: timestamps });
         pass.set_pipeline(&self.pipeline);
-        pass.set_bind_group(0, &buffers.group, &[]);
-        let workgroups = buffers.vertices.div_ceil(WORKGROUP);
-        pass.dispatch_workgroups(workgroups.min(MAX_WORKGROUPS), workgroups.div_ceil(MAX_WORKGROUPS).max(1), 1);
-    }
-}
-
-impl DeformBuffers {
-    /// Bytes on the GPU.
-    pub fn bytes(&self) -> u64 {
-        self.fixed_bytes + self.joints.size() + self.weights.size() + self.deformed.size()
+        for body in bodies {
+            pass.set_bind_group(0, &body.group, &[]);
+            let workgroups = body.vertices.div_ceil(WORKGROUP);
+            pass.dispatch_workgroups(workgroups.min(MAX_WORKGROUPS), workgroups.div_ceil(MAX_WORKGROUPS).max(1), 1);
+        }
     }
 }

@@ -2,10 +2,10 @@
 
 use super::{Drawing, Mark, Picture, surface_cull};
 use crate::material::{AlphaMode, Material};
-use crate::render::draw_list::{self, Pipelines};
-use crate::render::gpu_scene::GpuScene;
+use crate::render::character::Shown;
+use crate::render::draw_list::{self, Actors};
 use crate::render::material::Composition;
-use crate::render::variants::{Drawn, Request};
+use crate::render::variants::Request;
 
 /// What draws a material.
 pub(crate) fn request(picture: &Picture<'_>, of: &Composition, material: &Material, colors: bool) -> Request {
@@ -18,10 +18,18 @@ pub(crate) fn request(picture: &Picture<'_>, of: &Composition, material: &Materi
 }
 
 /// Draws every eye and brow once more; each sample takes the foremost of them.
-pub(crate) fn encode(pass: &mut wgpu::RenderPass<'_>, scene: &GpuScene, shown: &[Pipelines<Drawn>]) {
-    for &index in &scene.through_order {
-        if let Some(through) = &shown[index].through {
-            draw_list::record_marked(pass, scene, &scene.draws[index], through, Mark::Through);
+pub(crate) fn encode(pass: &mut wgpu::RenderPass<'_>, actors: &Actors<'_>, shown: &[Shown]) {
+    for (body, shown) in actors.bodies.iter().zip(shown) {
+        let data = body.data();
+        if data.through_order.is_empty() {
+            continue;
+        }
+        actors.bind(pass, body);
+        pass.set_stencil_reference(Mark::Through.reference(body.index));
+        for &index in &data.through_order {
+            if let Some(through) = &shown[index].through {
+                draw_list::record(pass, body, &data.draws[index], through, body.instance());
+            }
         }
     }
 }

@@ -1,32 +1,35 @@
 //! The floor of the benches: the same triangles, unlit with one texture, in the same targets.
 
 use super::{Drawing, Mark, Picture};
-use crate::Result;
 use crate::material::{Base, Options};
-use crate::render::draw_list;
-use crate::render::gpu_scene::GpuScene;
+use crate::render::draw_list::{self, Actors};
 use crate::render::shaders::{Bound, Recipe};
 use crate::render::variants::{Drawn, Request, Variants};
+use crate::{Actor, Result, Stage};
 
-/// What draws each surface of a scene.
+/// What draws each surface of each actor.
 #[derive(Debug)]
 pub(crate) struct FloorPass {
-    drawn: Vec<Drawn>,
+    drawn: Vec<Vec<Drawn>>,
 }
 
 impl FloorPass {
-    pub fn new(variants: &Variants, picture: &Picture<'_>, scene: &mut GpuScene) -> Result<Self> {
-        let request = request(picture);
-        let variant = variants.get(&request)?;
-        let materials: Vec<usize> = scene.draws.iter().map(|d| d.material).collect();
-        let drawn = materials.into_iter().map(|m| scene.bind(&variants.gpu, variant.clone(), m)).collect();
-        Ok(Self { drawn })
+    pub fn new(variants: &Variants, picture: &Picture<'_>, stage: &Stage) -> Result<Self> {
+        let variant = variants.get(&request(picture))?;
+        let of_actor = |actor: &Actor| {
+            let data = &actor.character.0;
+            data.draws.iter().map(|d| data.bind(&variants.gpu, variant.clone(), d.material)).collect()
+        };
+        Ok(Self { drawn: stage.actors.iter().map(of_actor).collect() })
     }
 
     /// Draws every surface.
-    pub fn encode(&self, pass: &mut wgpu::RenderPass<'_>, scene: &GpuScene) {
-        for (draw, drawn) in scene.draws.iter().zip(&self.drawn) {
-            draw_list::record(pass, scene, draw, drawn);
+    pub fn encode(&self, pass: &mut wgpu::RenderPass<'_>, actors: &Actors<'_>) {
+        for (body, drawn) in actors.bodies.iter().zip(&self.drawn) {
+            actors.bind(pass, body);
+            for (draw, drawn) in body.data().draws.iter().zip(drawn) {
+                draw_list::record(pass, body, draw, drawn, body.instance());
+            }
         }
     }
 }

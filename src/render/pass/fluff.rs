@@ -2,10 +2,10 @@
 
 use super::{Drawing, Mark, Picture};
 use crate::material::Fluff;
-use crate::render::draw_list::{self, Pipelines};
-use crate::render::gpu_scene::GpuScene;
+use crate::render::character::Shown;
+use crate::render::draw_list::{self, Actors};
 use crate::render::material::Composition;
-use crate::render::variants::{Drawn, Request};
+use crate::render::variants::Request;
 
 /// Shells of a coat: `fluff_shells` of `wgsl/lib/fluff.wgsl`.
 fn shells(fluff: &Fluff, px_per_m: f32) -> u32 {
@@ -28,12 +28,14 @@ pub(crate) fn request(picture: &Picture<'_>, of: &Composition, colors: bool) -> 
 }
 
 /// Draws every coat, root to tips. `px_per_m`: size of a metre on the nearest character, pixels.
-pub(crate) fn encode(pass: &mut wgpu::RenderPass<'_>, scene: &GpuScene, shown: &[Pipelines<Drawn>], px_per_m: f32) {
-    let instances = scene.instance_rows.len() as u32;
-    for (draw, pipelines) in scene.draws.iter().zip(shown) {
-        let (Some(coat), Some(fluff)) = (&pipelines.fluff, scene.material(draw).fluff) else { continue };
-        // The first copy of the instances is the surface itself.
-        let last = instances * (1 + shells(&fluff, px_per_m));
-        draw_list::record_instances(pass, scene, draw, coat, instances..last);
+pub(crate) fn encode(pass: &mut wgpu::RenderPass<'_>, actors: &Actors<'_>, shown: &[Shown], px_per_m: f32) {
+    for (body, shown) in actors.bodies.iter().zip(shown).filter(|(body, _)| !body.shells.is_empty()) {
+        actors.bind(pass, body);
+        let data = body.data();
+        for (draw, pipelines) in data.draws.iter().zip(&**shown) {
+            let (Some(coat), Some(fluff)) = (&pipelines.fluff, data.material(draw).fluff) else { continue };
+            let last = body.shells.start + shells(&fluff, px_per_m);
+            draw_list::record(pass, body, draw, coat, body.shells.start..last.min(body.shells.end));
+        }
     }
 }

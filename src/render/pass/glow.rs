@@ -3,17 +3,15 @@
 use super::{ADD, HDR_FORMAT, surface_cull};
 use crate::Gpu;
 use crate::material::{AlphaMode, Material};
-use crate::render::draw_list;
-use crate::render::gpu_scene::GpuScene;
+use crate::render::draw_list::{self, Actors};
 use crate::render::material::Composition;
 use crate::render::targets;
 use crate::render::variants::{Request, State};
 
 /// What the pass reads and writes.
 pub(crate) struct GlowInputs<'a> {
-    pub scene: &'a GpuScene,
     /// With the depth of the prepass.
-    pub frame: &'a wgpu::BindGroup,
+    pub actors: Actors<'a>,
     /// Of [`target`].
     pub light: &'a wgpu::TextureView,
 }
@@ -41,13 +39,15 @@ pub(crate) fn encode(
     inputs: &GlowInputs<'_>,
     timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
 ) {
-    let GlowInputs { scene, frame, light } = inputs;
-    let light = targets::color(light, wgpu::LoadOp::Clear(wgpu::Color::BLACK));
+    let light = targets::color(inputs.light, wgpu::LoadOp::Clear(wgpu::Color::BLACK));
     let mut pass = targets::begin(encoder, "glow", Some(light), None, timestamps);
-    draw_list::bind_scene(&mut pass, scene, frame, &scene.character_group);
-    for (draw, pipelines) in scene.draws.iter().zip(&scene.picture) {
-        if let Some(glow) = &pipelines.glow {
-            draw_list::record(&mut pass, scene, draw, glow);
+    for body in inputs.actors.bodies {
+        inputs.actors.bind(&mut pass, body);
+        let data = body.data();
+        for (draw, pipelines) in data.draws.iter().zip(data.picture()) {
+            if let Some(glow) = &pipelines.glow {
+                draw_list::record(&mut pass, body, draw, glow, body.instance());
+            }
         }
     }
 }

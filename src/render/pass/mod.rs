@@ -60,18 +60,14 @@ impl Mark {
     /// How many characters have a number of their own.
     pub const NUMBERS: u32 = NUMBER_BITS + 1;
 
-    /// Whether it belongs to one character: hair is marked with her number, and shows her eyes alone.
-    pub fn is_numbered(self) -> bool {
-        matches!(self, Self::Hair | Self::Through)
-    }
-
-    /// Reference value of the stencil for the character of this number.
+    /// Reference value of the stencil for the actor of this number: hair is marked with it, and shows its own eyes alone.
+    /// On a stage larger than there are numbers, some share one.
     pub fn reference(self, number: u32) -> u32 {
         match self {
             Self::None => 0,
             Self::Eyes => EYES_BIT,
-            Self::Hair => HAIR_BIT | number,
-            Self::Through => EYES_BIT | HAIR_BIT | number,
+            Self::Hair => HAIR_BIT | number % Self::NUMBERS,
+            Self::Through => EYES_BIT | HAIR_BIT | number % Self::NUMBERS,
         }
     }
 
@@ -108,11 +104,13 @@ pub(crate) struct Sight<'a> {
     pub channel: Option<&'a str>,
     /// Whether point and spot lights may shine; drivers without jumps pay for lights that are not there.
     pub punctual: bool,
+    /// Whether it is drawn in half floats, which [`post`] finishes.
+    pub hdr: bool,
 }
 
 impl<'a> Picture<'a> {
-    pub fn new(gpu: &Gpu, output: Output, is_finished_later: bool, sight: Sight<'a>) -> Self {
-        let format = if is_finished_later { HDR_FORMAT } else { output.format };
+    pub fn new(gpu: &Gpu, output: Output, sight: Sight<'a>) -> Self {
+        let format = if sight.hdr { HDR_FORMAT } else { output.format };
         Self { output: Output { format, ..output }, depth_format: color_depth_format(gpu), sight }
     }
 

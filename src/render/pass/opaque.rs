@@ -2,10 +2,10 @@
 
 use super::{Drawing, Mark, Picture, surface_cull};
 use crate::material::{AlphaMode, Material};
-use crate::render::draw_list::{self, Pipelines};
-use crate::render::gpu_scene::GpuScene;
+use crate::render::character::Shown;
+use crate::render::draw_list::{self, Actors};
 use crate::render::material::Composition;
-use crate::render::variants::{Drawn, Request};
+use crate::render::variants::Request;
 
 /// What draws a material.
 pub(crate) fn request(
@@ -27,14 +27,22 @@ pub(crate) fn request(
     picture.request(recipe, Drawing { cull: surface_cull(material), blend: false, write_depth: true, mark })
 }
 
-/// Draws all opaque surfaces, then all masked ones (the order of upload). Where eyes are to be seen through hair, they
-/// follow what is neither, and hair comes last.
-pub(crate) fn encode(pass: &mut wgpu::RenderPass<'_>, scene: &GpuScene, shown: &[Pipelines<Drawn>]) {
-    for (draw, pipelines) in scene.draws.iter().zip(shown).filter(|(d, _)| !d.blend) {
-        if draw.mark == Mark::None {
-            draw_list::record(pass, scene, draw, &pipelines.surface);
-        } else {
-            draw_list::record_marked(pass, scene, draw, &pipelines.surface, draw.mark);
+/// Draws all opaque surfaces of each actor, then all masked ones (the order of upload). Where eyes are to be seen through
+/// hair, those of all actors follow what is neither, and hair comes last.
+pub(crate) fn encode(pass: &mut wgpu::RenderPass<'_>, actors: &Actors<'_>, shown: &[Shown]) {
+    for mark in [Mark::None, Mark::Eyes, Mark::Hair] {
+        for (body, shown) in actors.bodies.iter().zip(shown) {
+            let draws = || body.solid_draws().filter(|(_, draw)| draw.mark == mark);
+            if draws().next().is_none() {
+                continue;
+            }
+            actors.bind(pass, body);
+            if mark != Mark::None {
+                pass.set_stencil_reference(mark.reference(body.index));
+            }
+            for (i, draw) in draws() {
+                draw_list::record(pass, body, draw, &shown[i].surface, body.instance());
+            }
         }
     }
 }

@@ -2,10 +2,10 @@
 
 use super::{Drawing, Mark, Picture};
 use crate::material::{AlphaMode, Material};
-use crate::render::draw_list::{self, Pipelines};
-use crate::render::gpu_scene::GpuScene;
+use crate::render::character::Shown;
+use crate::render::draw_list::{self, Actors};
 use crate::render::material::{Component, Composition};
-use crate::render::variants::{Drawn, Request};
+use crate::render::variants::Request;
 
 const SECTION: &str = "outline";
 
@@ -42,10 +42,13 @@ pub(crate) fn request(picture: &Picture<'_>, of: &Composition, material: &Materi
 }
 
 /// Draws the outlines of all opaque surfaces.
-pub(crate) fn encode(pass: &mut wgpu::RenderPass<'_>, scene: &GpuScene, shown: &[Pipelines<Drawn>]) {
-    for (draw, pipelines) in scene.draws.iter().zip(shown).filter(|(d, _)| !d.blend) {
-        if let Some(outline) = &pipelines.outline {
-            draw_list::record(pass, scene, draw, outline);
+pub(crate) fn encode(pass: &mut wgpu::RenderPass<'_>, actors: &Actors<'_>, shown: &[Shown]) {
+    for (body, shown) in actors.bodies.iter().zip(shown) {
+        actors.bind(pass, body);
+        for (i, draw) in body.solid_draws() {
+            if let Some(outline) = &shown[i].outline {
+                draw_list::record(pass, body, draw, outline, body.instance());
+            }
         }
     }
 }

@@ -2,8 +2,7 @@
 
 use super::{depth_state, surface_cull};
 use crate::material::Material;
-use crate::render::draw_list;
-use crate::render::gpu_scene::GpuScene;
+use crate::render::draw_list::{self, Actors};
 use crate::render::material::Composition;
 use crate::render::targets::{self, PrepassTargets};
 use crate::render::variants::{Drawn, Request, State};
@@ -13,13 +12,12 @@ pub(crate) const SURFACES_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rg3
 
 /// What the pass reads and writes.
 pub(crate) struct PrepassInputs<'a> {
-    pub scene: &'a GpuScene,
-    pub frame: &'a wgpu::BindGroup,
+    pub actors: Actors<'a>,
     pub targets: &'a PrepassTargets,
     /// Whether normals and parts are drawn, too.
     pub surfaces: bool,
-    /// One for each draw of the scene; `None` leaves it out.
-    pub drawn: &'a mut dyn Iterator<Item = Option<&'a Drawn>>,
+    /// By body and draw; `None` leaves it out.
+    pub drawn: &'a dyn Fn(usize, usize) -> Option<&'a Drawn>,
 }
 
 /// What draws a material; without `surfaces`, normal and part are left out.
@@ -43,10 +41,12 @@ pub(crate) fn encode(
         inputs.surfaces.then(|| targets::color(surfaces_view, wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT)));
     let depth = targets::depth(depth_view, 0.0, wgpu::StoreOp::Store);
     let mut pass = targets::begin(encoder, "prepass", surfaces, Some(depth), timestamps);
-    draw_list::bind_scene(&mut pass, inputs.scene, inputs.frame, &inputs.scene.character_group);
-    for (draw, drawn) in inputs.scene.draws.iter().zip(inputs.drawn) {
-        if let Some(drawn) = drawn {
-            draw_list::record(&mut pass, inputs.scene, draw, drawn);
+    for (of, body) in inputs.actors.bodies.iter().enumerate() {
+        inputs.actors.bind(&mut pass, body);
+        for (index, draw) in body.data().draws.iter().enumerate() {
+            if let Some(drawn) = (inputs.drawn)(of, index) {
+                draw_list::record(&mut pass, body, draw, drawn, body.instance());
+            }
         }
     }
 }

@@ -1,23 +1,28 @@
-//! Depth of characters from the key light, for the shadow of each on itself.
+//! Depth of characters from the key light, for the shadows of each on itself and of those beside it.
 
 use glam::Vec3;
 
 use super::{DEPTH_FORMAT, map_request};
 use crate::Gpu;
-use crate::render::draw_list;
-use crate::render::gpu_scene::GpuScene;
+use crate::render::draw_list::{self, Actors};
 use crate::render::material::Composition;
 use crate::render::targets;
 use crate::render::variants::Request;
 use crate::scene::{MOST_SHADOWED, SelfShadow};
+use crate::stage::body::Body;
 
-/// The maps of a scene's characters, a layer for each.
+/// How a character's map fits it.
+#[derive(Debug)]
+pub(crate) struct ShadowFit {
+    pub settings: SelfShadow,
+    /// Middle and radius of the sphere round it at rest, character space, metres.
+    pub middle: Vec3,
+    pub radius: f32,
+}
+
+/// The maps of a stage, a layer for each actor that has one.
 #[derive(Debug)]
 pub(crate) struct ShadowMap {
-    settings: SelfShadow,
-    /// Middle and radius of the sphere round a character at rest, character space, metres.
-    pub middle: Vec3,
-    radius: f32,
     /// As shaders read it.
     pub view: wgpu::TextureView,
     layers: Vec<wgpu::TextureView>,
@@ -39,43 +44,21 @@ pub(crate) struct ShadowRows {
     pub middle: Vec3,
 }
 
-/// What the pass reads and writes.
+/// What the pass reads and writes: the map of a body.
 pub(crate) struct ShadowInputs<'a> {
-    pub scene: &'a GpuScene,
-    pub frame: &'a wgpu::BindGroup,
+    pub actors: Actors<'a>,
     pub map: &'a ShadowMap,
+    pub layer: u32,
+    pub of: &'a Body,
 }
 
-impl ShadowMap {
-    /// Maps of a character that fills a sphere.
-    pub fn new(gpu: &Gpu, settings: SelfShadow, middle: Vec3, radius: f32) -> Self {
-        let mut map = Self { settings, middle, radius, view: map_texture(gpu, 1, 1), layers: Vec::new() };
-        map.fit(gpu, 1);
-        map
-    }
-
-    /// Whether a crowd of so many needs more layers; they are made then.
-    pub fn fit(&mut self, gpu: &Gpu, characters: usize) -> bool {
-        let wanted = (characters as u32).clamp(1, MOST_SHADOWED);
-        if self.layers.len() as u32 >= wanted {
-            return false;
-        }
-        self.view = map_texture(gpu, self.settings.side, wanted);
-        self.layers = (0..wanted).map(|i| targets::layer(&self.view, i)).collect();
-        true
-    }
-
-    /// The layer of a character, where there is one.
-    pub fn layer(&self, character: usize) -> Option<u32> {
-        (character < self.layers.len()).then_some(character as u32)
-    }
-
-    /// Places in the maps while the middle stands there and the light so, in the world.
-    pub fn rows(&self, middle: Vec3, to_light: Vec3) -> ShadowRows {
+impl ShadowFit {
+    /// Places in a map while the middle stands there and the light so, in the world.
+    pub fn rows(&self, side: u32, middle: Vec3, to_light: Vec3) -> ShadowRows {
         let to_light = to_light.normalize_or(Vec3::Z);
         // The camera's up is the world's, unless the light comes from there.
         let right = Vec3::Y.cross(to_light).try_normalize().filter(|r| r.is_finite()).unwrap_or(Vec3::X);
-        let texel = 1.0 / self.view.texture().width() as f32;
+        let texel = 1.0 / side as f32;
         let width = 2.0 * self.radius;
         ShadowRows {
             right,
@@ -87,6 +70,31 @@ impl ShadowMap {
             spread: (self.settings.soft_width_m / (3.0 * width)).max(texel),
             middle,
         }
+    }
+}
+
+impl ShadowMap {
+    /// Makes room for the maps of these characters, as large as the largest asks for; whether there are other ones now.
+    pub fn fit(map: &mut Option<Self>, gpu: &Gpu, fits: &[&ShadowFit]) -> bool {
+        let Some(side) = fits.iter().map(|f| f.settings.side).max() else { return false };
+        let wanted = (fits.len() as u32).min(MOST_SHADOWED);
+        if map.as_ref().is_some_and(|m| m.side() == side && m.layers.len() as u32 >= wanted) {
+            return false;
+        }
+        let view = map_texture(gpu, side, wanted);
+        let layers = (0..wanted).map(|i| targets::layer(&view, i)).collect();
+        *map = Some(Self { view, layers });
+        true
+    }
+
+    /// How many there are.
+    pub fn layers(&self) -> usize {
+        self.layers.len()
+    }
+
+    /// Texels along a side.
+    pub fn side(&self) -> u32 {
+        self.view.texture().width()
     }
 }
 
@@ -111,29 +119,23 @@ pub(crate) fn request(of: &Composition, colors: bool) -> Request {
     map_request(of.cut("shadow", colors, false), 1.5, None)
 }
 
-/// Draws each character that has a map into its own.
+/// Draws what casts on an actor into its map: itself, and others beside it.
 pub(crate) fn encode(
     encoder: &mut wgpu::CommandEncoder,
     inputs: &ShadowInputs<'_>,
     timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
 ) {
-    let count = inputs.map.layers.len().min(inputs.scene.instance_rows.len());
-    for (i, layer) in inputs.map.layers.iter().take(count).enumerate() {
-        // From the beginning of the first pass to the end of the last.
-        let writes = timestamps.clone().map(|t| wgpu::RenderPassTimestampWrites {
-            beginning_of_pass_write_index: t.beginning_of_pass_write_index.filter(|_| i == 0),
-            end_of_pass_write_index: t.end_of_pass_write_index.filter(|_| i + 1 == count),
-            ..t
-        });
-        let writes =
-            writes.filter(|w| w.beginning_of_pass_write_index.is_some() || w.end_of_pass_write_index.is_some());
-        let depth = targets::depth(layer, 1.0, wgpu::StoreOp::Store);
-        let mut pass = targets::begin(encoder, "shadow", None, Some(depth), writes);
+    let ShadowInputs { actors, map, layer, of } = inputs;
+    let depth = targets::depth(&map.layers[*layer as usize], 1.0, wgpu::StoreOp::Store);
+    let mut pass = targets::begin(encoder, "shadow", None, Some(depth), timestamps);
+    let others = of.casters.iter().map(|&(other, instance)| (&actors.bodies[other], instance..instance + 1));
+    for (body, instances) in std::iter::once((*of, of.instance())).chain(others) {
         // The map itself cannot be read while it is drawn.
-        draw_list::bind_scene(&mut pass, inputs.scene, inputs.frame, &inputs.scene.character_group_without_map);
-        for (draw, pipelines) in inputs.scene.draws.iter().zip(&inputs.scene.picture) {
+        actors.bind_without_maps(&mut pass, body);
+        let data = body.data();
+        for (draw, pipelines) in data.draws.iter().zip(data.picture()) {
             if let Some(shadow) = &pipelines.shadow {
-                draw_list::record_instances(&mut pass, inputs.scene, draw, shadow, i as u32..i as u32 + 1);
+                draw_list::record(&mut pass, body, draw, shadow, instances.clone());
             }
         }
     }

@@ -2,10 +2,10 @@
 
 use super::{Drawing, Mark, Picture, surface_cull};
 use crate::material::Material;
-use crate::render::draw_list::{self, Pipelines};
-use crate::render::gpu_scene::GpuScene;
+use crate::render::character::Shown;
+use crate::render::draw_list::{self, Actors};
 use crate::render::material::Composition;
-use crate::render::variants::{Drawn, Request};
+use crate::render::variants::Request;
 
 /// What draws a material.
 pub(crate) fn request(picture: &Picture<'_>, of: &Composition, material: &Material, colors: bool) -> Request {
@@ -15,12 +15,19 @@ pub(crate) fn request(picture: &Picture<'_>, of: &Composition, material: &Materi
     picture.request(recipe, Drawing { cull: surface_cull(material), blend: true, write_depth, mark: Mark::None })
 }
 
-/// Draws each surface, then its outline; `scene.transparent_order` is sorted for the view.
-pub(crate) fn encode(pass: &mut wgpu::RenderPass<'_>, scene: &GpuScene, shown: &[Pipelines<Drawn>]) {
-    for (draw, pipelines) in scene.transparent_order.iter().map(|&i| (&scene.draws[i], &shown[i])) {
-        draw_list::record(pass, scene, draw, &pipelines.surface);
+/// Draws each surface, then its outline, in this order of bodies and their draws.
+pub(crate) fn encode(pass: &mut wgpu::RenderPass<'_>, actors: &Actors<'_>, shown: &[Shown], order: &[(usize, usize)]) {
+    let mut last = None;
+    for &(of, index) in order {
+        let body = &actors.bodies[of];
+        if last != Some(of) {
+            actors.bind(pass, body);
+            last = Some(of);
+        }
+        let (draw, pipelines) = (&body.data().draws[index], &shown[of][index]);
+        draw_list::record(pass, body, draw, &pipelines.surface, body.instance());
         if let Some(outline) = &pipelines.outline {
-            draw_list::record(pass, scene, draw, outline);
+            draw_list::record(pass, body, draw, outline, body.instance());
         }
     }
 }

@@ -7,6 +7,7 @@ use hikage::motion::Pose;
 use hikage::scene::{Influences, Mesh, MorphTarget, Node, Scene, Skin, Transform};
 
 use super::{close, srgb};
+use crate::support::{Shoot, staged};
 use crate::support::{cube, gpu, pixel, render, scene, sphere, square, two_tone, view};
 
 #[test]
@@ -65,14 +66,14 @@ fn joints_move_what_they_hold_with_any_number_of_influences() {
     for per_vertex in [4, 8] {
         let scene = skinned_bar(per_vertex);
         let mut renderer = Renderer::new(&gpu).expect("a renderer");
-        let mut uploaded = renderer.upload(&scene).expect("an upload");
+        let mut uploaded = staged(renderer.upload(&scene));
         let view = view(128, 4.0);
-        let rest = renderer.render(&mut uploaded, &view).expect("a picture");
+        let rest = renderer.shoot(&mut uploaded, &view).expect("a picture");
         assert_eq!(pixel(&rest, 64, 30)[..3], [0x80; 3], "nothing above the cube at rest");
         let mut pose = Pose::rest(&scene);
         pose.locals[2].translation.y = 0.3;
-        uploaded.set_pose(&scene, &pose).expect("a pose of it");
-        let raised = renderer.render(&mut uploaded, &view).expect("a picture");
+        uploaded.actors[0].pose = pose.clone();
+        let raised = renderer.shoot(&mut uploaded, &view).expect("a picture");
         assert_ne!(pixel(&raised, 64, 30)[..3], [0x80; 3], "the upper half is raised, {per_vertex} influences");
         assert_ne!(pixel(&raised, 64, 78)[..3], [0x80; 3], "the lower half stays, {per_vertex} influences");
     }
@@ -92,15 +93,15 @@ fn morph_targets_move_only_their_vertices() {
     scene.meshes[0] = Mesh { morph_names: vec!["nothing".into(), "up".into()], ..scene.meshes[0].clone() };
     scene.nodes[0].morph_weights = vec![0.0, 0.0];
     let mut renderer = Renderer::new(&gpu).expect("a renderer");
-    let mut uploaded = renderer.upload(&scene).expect("an upload");
+    let mut uploaded = staged(renderer.upload(&scene));
     let view = view(128, 4.0);
     let heights: Vec<u32> = [0.0, 0.5, 1.0]
         .into_iter()
         .map(|weight| {
             let mut pose = Pose::rest(&scene);
             pose.morph_weights[0][1] = weight;
-            uploaded.set_pose(&scene, &pose).expect("a pose of it");
-            let image = renderer.render(&mut uploaded, &view).expect("a picture");
+            uploaded.actors[0].pose = pose.clone();
+            let image = renderer.shoot(&mut uploaded, &view).expect("a picture");
             (0..128).filter(|&y| pixel(&image, 64, y)[..3] != [0x80; 3]).count() as u32
         })
         .collect();

@@ -6,6 +6,7 @@ use hikage::color::Srgb;
 use hikage::material::{Base, Material, Outline, OutlineTint, OutlineWidth, Shading, Toon};
 use hikage::scene::Image;
 
+use crate::support::{Shoot, staged};
 use crate::support::{cube, gpu, pixel, render, scene, sphere, texture, two_tone, view};
 
 /// Without a hue of its own, so that a green line is what is green.
@@ -99,8 +100,8 @@ fn lines_keep_their_widths_over_the_whole_range() {
                     view.size = size;
                     view.camera.fov_y_rad = fov.to_radians();
                     view.camera.near = 0.01;
-                    let mut uploaded = renderer.upload(&scene).expect("an upload");
-                    let image = renderer.render(&mut uploaded, &view).expect("a picture");
+                    let mut uploaded = staged(renderer.upload(&scene));
+                    let image = renderer.shoot(&mut uploaded, &view).expect("a picture");
                     for found in line_widths(&image) {
                         let what = format!("{width:?} at {distance} m, {fov}°, {size:?}");
                         assert!((found - expected).abs() <= 0.5, "{what}: {found} px, expected {expected}");

@@ -3,9 +3,10 @@
 use glam::Vec3;
 use hikage::material::{Alpha, AlphaMode, Material, Outline, OutlineWidth};
 use hikage::scene::Scene;
-use hikage::{Channel, Output, Renderer, View};
+use hikage::{Channel, Output, Renderer};
 
 use super::close;
+use crate::support::{Shoot, Shot, staged};
 use crate::support::{gpu, pixel, render, render_with, scene, sphere, square, two_tone, view};
 
 #[test]
@@ -69,11 +70,11 @@ fn views_without_sense_are_refused_with_their_reason() {
     let gpu = gpu();
     let scene = scene(vec![(sphere(0.5, 8, 16), two_tone())]);
     let mut renderer = Renderer::new(&gpu).expect("a renderer");
-    let mut uploaded = renderer.upload(&scene).expect("an upload");
-    let mut refuse = |change: fn(&mut View), word: &str| {
+    let mut uploaded = staged(renderer.upload(&scene));
+    let mut refuse = |change: fn(&mut Shot), word: &str| {
         let mut view = view(64, 4.0);
         change(&mut view);
-        let error = renderer.render(&mut uploaded, &view).expect_err(word).to_string();
+        let error = renderer.shoot(&mut uploaded, &view).expect_err(word).to_string();
         assert!(error.contains(word), "{error}");
     };
     refuse(|v| v.size = [0, 10], "size");

@@ -2,7 +2,6 @@
 
 use std::path::PathBuf;
 
-use glam::{Mat4, Vec3};
 use hikage::View;
 use hikage::bench::{self, BenchOptions, run as measure};
 
@@ -18,7 +17,7 @@ use crate::spinner::Spinner;
 The floor is the same meshes with the same samples, drawn unlit with one texture: what no shading can go below.
 Examples:
   hikage bench
-  hikage bench girl.vrm --size 512x512 --instances 20
+  hikage bench girl.vrm --size 512x512 --actors 20
   hikage bench --look anime --view full --each")]
 pub(crate) struct Args {
     /// Model: .vrm, .glb or .gltf [default: the built-in character].
@@ -26,9 +25,9 @@ pub(crate) struct Args {
     /// Size of the picture, pixels.
     #[arg(long, value_name = "WxH", default_value = "1024x1024", value_parser = args::size)]
     size: [u32; 2],
-    /// Copies of the character.
+    /// Actors of the character, each in a pose of its own.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=4096))]
-    instances: u32,
+    actors: u32,
     /// Measured frames.
     #[arg(long, value_name = "N", default_value_t = 30, value_parser = clap::value_parser!(u32).range(1..=10000))]
     frames: u32,
@@ -67,7 +66,8 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let gpu = setup::gpu(args.adapter.as_deref())?;
     spinner.step(format!("measuring {} frames", args.frames));
     let options = BenchOptions {
-        view: View { instances: crowd(args.instances), ..View::framed(&scene, args.view.into(), 0.0, args.size) },
+        view: View::framed(&scene, args.view.into(), 0.0, args.size),
+        actors: args.actors as usize,
         samples: args.samples,
         frames: args.frames as usize,
     };
@@ -91,12 +91,12 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         passes.row([pass.name.clone(), format!("{:.3}", pass.ms.median)]);
     }
     print(&format!(
-        "{}: {} x {}, {} samples, {} instances, {} frames\n{}  frame / floor {:.2}\n{}  {} draws, {} triangles, {} on the GPU\n",
+        "{}: {} x {}, {} samples, {} actors, {} frames\n{}  frame / floor {:.2}\n{}  {} draws, {} triangles, {} on the GPU\n",
         report.adapter.name,
         args.size[0],
         args.size[1],
         args.samples,
-        args.instances,
+        args.actors,
         args.frames,
         times.text(),
         report.floor_ratio,
@@ -123,15 +123,4 @@ fn print_costs(args: &Args, adapter: &str, costs: &[bench::Cost]) -> Result<(), 
     }
     let [width, height] = args.size;
     print(&format!("{adapter}: {width} x {height}, {} frames of each\n{}", args.frames, table.text()))
-}
-
-/// One character at the origin, the others in rows behind it.
-fn crowd(count: u32) -> Vec<Mat4> {
-    let columns = (f64::from(count).sqrt().ceil() as u32).max(1);
-    let middle = (columns - 1) / 2;
-    let place = |i: u32| {
-        let (column, row) = (i % columns, i / columns);
-        Vec3::new(column as f32 - middle as f32, 0.0, -(row as f32))
-    };
-    (0..count).map(|i| Mat4::from_translation(place(i))).collect()
 }

@@ -6,8 +6,8 @@ use std::time::Instant;
 use glam::Vec3;
 use hikage::motion::{Pose, Stance};
 use hikage::picture::{encode_png, write_atomic};
-use hikage::scene::Scene;
-use hikage::{Background, Channel, GpuMemory, Output, Renderer, View};
+use hikage::scene::{Lights, Scene};
+use hikage::{Actor, Background, Channel, GpuMemory, Output, Renderer, Stage, View};
 use serde::Serialize;
 
 use crate::args::{self, LookName, ViewName};
@@ -157,7 +157,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         Stance::Rest
     };
     let pose = setup::pose(&scene, args.pose.unwrap_or(at_ease), &args.expression)?;
-    let view = view(args, &shot, &scene, &pose)?;
+    let (view, lights) = seen(args, &shot, &scene, &pose)?;
 
     spinner.step("opening the adapter");
     let gpu = timed(&mut ms.adapter, || setup::gpu(args.adapter.as_deref()))?;
@@ -165,10 +165,11 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let output = Output { samples: args.samples, ..Output::default() };
     let mut renderer = timed(&mut ms.pipelines, || Renderer::with_output(&gpu, output))?;
     spinner.step("uploading");
-    let mut gpu_scene = timed(&mut ms.upload, || renderer.upload_and_empty_images(&mut scene))?;
-    gpu_scene.set_pose(&scene, &pose)?;
+    let character = timed(&mut ms.upload, || renderer.upload_and_empty_images(&mut scene))?;
+    let mut stage = Stage::of([Actor::new(&character).posed(pose)]);
+    (stage.lights, stage.time_s) = (lights, args.time);
     spinner.step("drawing");
-    let picture = timed(&mut ms.first_frame, || renderer.render(&mut gpu_scene, &view))?;
+    let picture = timed(&mut ms.first_frame, || renderer.render(&mut stage, &view))?;
     let png = timed(&mut ms.encode, || encode_png(&picture))?;
     drop(spinner);
 
@@ -181,11 +182,11 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             model: args.model.as_deref().unwrap_or(Path::new(setup::BUILT_IN)).display().to_string(),
             output: args.output.display().to_string(),
             adapter: AdapterReport { name: &info.name, backend: &info.backend, kind: &info.kind, driver: &info.driver },
-            options: options_report(args, &view),
+            options: options_report(args, &view, &stage),
             ms,
-            draws: gpu_scene.draw_count(),
+            draws: stage.draw_count(),
             triangles: scene.triangle_count(),
-            gpu_bytes: gpu_scene.memory(),
+            gpu_bytes: character.memory(),
             warnings: &scene.warnings,
         };
         write_atomic(path, output::json(&report)?.as_bytes())?;
@@ -194,13 +195,14 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
 }
 
 /// What is drawn: the framing, then the shot, then the options of the command line.
-fn view(args: &Args, shot: &Shot, scene: &Scene, pose: &Pose) -> Result<View, Failure> {
+fn seen(args: &Args, shot: &Shot, scene: &Scene, pose: &Pose) -> Result<(View, Lights), Failure> {
     let size = args.size.or(shot.size).unwrap_or([1024, 1024]);
     let framing = args.view.unwrap_or(ViewName::Portrait).into();
     let framed = View::framed_pose(scene, pose, framing, args.yaw.unwrap_or(0.0).to_radians(), size);
     let mut view = framed.clone();
     view.background = Background::Color(hikage::color::Srgb([0x80; 3]));
-    shot.apply(&mut view).map_err(|what| {
+    let mut lights = scene.lights.clone().unwrap_or_default();
+    shot.apply(&mut view, &mut lights).map_err(|what| {
         let file = args.shot.as_deref().unwrap_or(Path::new(""));
         Failure::input(format!("{}: {what}", file.display()))
     })?;
@@ -208,23 +210,22 @@ fn view(args: &Args, shot: &Shot, scene: &Scene, pose: &Pose) -> Result<View, Fa
         view.camera = framed.camera;
     }
     if let Some([yaw, pitch]) = args.light.map(|angles| angles.map(f32::to_radians)) {
-        view.lights.directional.to_light = Vec3::new(yaw.sin() * pitch.cos(), pitch.sin(), yaw.cos() * pitch.cos());
+        lights.directional.to_light = Vec3::new(yaw.sin() * pitch.cos(), pitch.sin(), yaw.cos() * pitch.cos());
     }
-    view.lights.coolness = args.coolness.or(view.lights.coolness);
+    lights.coolness = args.coolness.or(lights.coolness);
     if let Some(background) = args.background {
         view.background = background;
     }
-    view.time_s = args.time;
     view.channel = args.channel;
-    Ok(view)
+    Ok((view, lights))
 }
 
-fn options_report<'a>(args: &'a Args, view: &View) -> OptionsReport<'a> {
+fn options_report<'a>(args: &'a Args, view: &View, stage: &Stage) -> OptionsReport<'a> {
     OptionsReport {
         size: view.size,
         samples: args.samples,
         channel: args.channel.name(),
-        time_s: view.time_s,
+        time_s: stage.time_s,
         background: match &view.background {
             Background::Color(hikage::color::Srgb([r, g, b])) => format!("#{r:02x}{g:02x}{b:02x}"),
             _ => "none".into(),
@@ -235,7 +236,7 @@ fn options_report<'a>(args: &'a Args, view: &View) -> OptionsReport<'a> {
         up: view.camera.up.into(),
         fov_y_deg: view.camera.fov_y_rad.to_degrees(),
         near: view.camera.near,
-        to_light: view.lights.directional.to_light.into(),
+        to_light: stage.lights.directional.to_light.into(),
     }
 }
 

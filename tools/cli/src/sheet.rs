@@ -7,7 +7,7 @@ use glam::{Quat, Vec3};
 use hikage::motion::{Pose, Stance};
 use hikage::picture::{encode_png, write_atomic};
 use hikage::scene::{Framing, HumanBone, Image, Scene};
-use hikage::{Background, Output, Renderer, View, color::Srgb};
+use hikage::{Actor, Background, Output, Renderer, Stage, View, color::Srgb};
 use noto_sans_mono_bitmap::{FontWeight, RasterHeight, get_raster};
 
 use crate::args::{self, LookName};
@@ -167,7 +167,8 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     spinner.step("making pipelines");
     let gpu = setup::gpu(args.adapter.as_deref())?;
     let mut renderer = Renderer::with_output(&gpu, Output::default())?;
-    let mut gpu_scene = renderer.upload_and_empty_images(&mut scene)?;
+    let mut stage = Stage::of([Actor::new(&renderer.upload_and_empty_images(&mut scene)?)]);
+    let lights = stage.lights.clone();
 
     let panel_height = |row: &Rows| (panel as f32 * row.aspect).round() as u32;
     let lines = |row: &Rows| row.panels.len().div_ceil(columns) as u32;
@@ -187,8 +188,13 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
                     let turn = Quat::from_rotation_y(shown.head_deg.to_radians());
                     pose.locals[head].rotation *= turn;
                 }
-                gpu_scene.set_pose(&scene, &pose)?;
-                let picture = renderer.render(&mut gpu_scene, &view)?;
+                stage.actors[0].pose = pose;
+                stage.lights.clone_from(&lights);
+                if let Some([yaw, pitch]) = shown.light_deg.map(|angles| angles.map(f32::to_radians)) {
+                    let to_light = Vec3::new(yaw.sin() * pitch.cos(), pitch.sin(), yaw.cos() * pitch.cos());
+                    stage.lights.directional.to_light = to_light;
+                }
+                let picture = renderer.render(&mut stage, &view)?;
                 let left = GAP + column as u32 * (panel + GAP);
                 place(&mut sheet, &picture, left, top);
                 write(&mut sheet, &shown.caption, left, top + size[1] + 4);
@@ -207,9 +213,6 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
 fn view(scene: &Scene, shown: &Panel, pose: &Pose, size: [u32; 2]) -> View {
     let framed = View::framed_pose(scene, pose, shown.framing, shown.yaw_deg.to_radians(), size);
     let mut view = View { background: Background::Color(BEHIND), ..framed };
-    if let Some([yaw, pitch]) = shown.light_deg.map(|angles| angles.map(f32::to_radians)) {
-        view.lights.directional.to_light = Vec3::new(yaw.sin() * pitch.cos(), pitch.sin(), yaw.cos() * pitch.cos());
-    }
     if let Some(metres) = shown.distance_m {
         let camera = &mut view.camera;
         let away = camera.eye - camera.target;

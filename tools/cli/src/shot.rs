@@ -5,7 +5,7 @@ use std::path::Path;
 use glam::Vec3;
 use hikage::View;
 use hikage::color::LinearRgb;
-use hikage::scene::{Ambient, Camera, DirectionalLight};
+use hikage::scene::{Ambient, Camera, DirectionalLight, Lights};
 use serde::Deserialize;
 
 use crate::args::{self, MAX_SIDE};
@@ -103,7 +103,7 @@ impl Shot {
     }
 
     /// Writes the given fields over those of `view`, whose size stays.
-    pub(crate) fn apply(&self, view: &mut View) -> Result<(), String> {
+    pub(crate) fn apply(&self, view: &mut View, lights: &mut Lights) -> Result<(), String> {
         if let Some(camera) = &self.camera {
             let to = &mut view.camera;
             *to = Camera {
@@ -119,7 +119,7 @@ impl Shot {
             }
         }
         if let Some(light) = &self.light {
-            let to = &mut view.lights.directional;
+            let to = &mut lights.directional;
             *to = DirectionalLight {
                 to_light: light.to_light.map_or(to.to_light, |d| Vec3::from(d).normalize_or(Vec3::Z)),
                 color: light.color.map_or(to.color, LinearRgb),
@@ -127,7 +127,7 @@ impl Shot {
             };
         }
         if let Some(ambient) = self.ambient {
-            view.lights.ambient = Ambient::uniform(LinearRgb(ambient));
+            lights.ambient = Ambient::uniform(LinearRgb(ambient));
         }
         if let Some(Ok(background)) = self.background.as_deref().map(args::background) {
             view.background = background;

@@ -19,7 +19,7 @@ use hikage::golden::{Tolerance, compare, sheet};
 use hikage::material::{Material, Origin};
 use hikage::picture::{read_png, write_png};
 use hikage::scene::{Ambient, Camera, DirectionalLight, Image, Lights, Scene};
-use hikage::{Background, Channel, Gpu, GpuScene, Output, Renderer, View};
+use hikage::{Actor, Background, Channel, Character, Gpu, Output, Renderer, Stage, View};
 use serde::{Deserialize, Serialize};
 
 use self::figures::{BAND, Figures, OFF, band, differences, figures, part_ids};
@@ -161,7 +161,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
 struct Studio {
     gpu: Gpu,
     renderer: Renderer,
-    loaded: Option<(PathBuf, Scene, GpuScene)>,
+    loaded: Option<(PathBuf, Scene, Character)>,
 }
 
 impl Studio {
@@ -171,21 +171,27 @@ impl Studio {
         let folder = file.parent().and_then(|f| f.strip_prefix(root).ok()).unwrap_or(Path::new(""));
         let model = args.dir.join(folder).join(&reference.model);
         let theirs = read_png(file.with_extension("png"))?;
-        let view = view(&reference).map_err(|e| fail(&e))?;
+        let (view, lights) = seen(&reference).map_err(|e| fail(&e))?;
 
         if self.loaded.as_ref().is_none_or(|(path, ..)| *path != model) {
             self.loaded = None;
             let scene = hikage::import::load(&model)?;
-            let gpu_scene = self.renderer.upload(&scene)?;
-            self.loaded = Some((model, scene, gpu_scene));
+            let character = self.renderer.upload(&scene)?;
+            self.loaded = Some((model, scene, character));
         }
-        let Some((_, scene, gpu_scene)) = &mut self.loaded else { return Err(fail(&"no model")) };
+        let Some((_, scene, character)) = &self.loaded else { return Err(fail(&"no model")) };
         let expressions: Vec<_> = reference.expressions.into_iter().flatten().collect();
-        gpu_scene.set_pose(scene, &setup::pose(scene, hikage::motion::Stance::Rest, &expressions)?)?;
-        let ours = self.renderer.render(gpu_scene, &view)?;
+        let staged = |character: &Character| -> Result<Stage, Failure> {
+            let pose = setup::pose(character.scene(), hikage::motion::Stance::Rest, &expressions)?;
+            let mut stage = Stage::of([Actor::new(character).posed(pose)]);
+            stage.lights.clone_from(&lights);
+            Ok(stage)
+        };
+        let mut stage = staged(character)?;
+        let ours = self.renderer.render(&mut stage, &view)?;
         let plain = |channel| View { channel, background: Background::Transparent, ..view.clone() };
-        let ids = part_ids(&self.renderer.render(gpu_scene, &plain(Channel::PartId))?);
-        let depth = self.renderer.render(gpu_scene, &plain(Channel::Depth))?;
+        let ids = part_ids(&self.renderer.render(&mut stage, &plain(Channel::PartId))?);
+        let depth = self.renderer.render(&mut stage, &plain(Channel::Depth))?;
 
         // Also refuses other sizes.
         let report = compare(&theirs, &ours, &Tolerance { channel: OFF, ..Tolerance::default() })?;
@@ -200,7 +206,7 @@ impl Studio {
         let all = figures(&compared, ours.width, &in_band, |_| true);
         write("", &ours, &all)?;
 
-        let material = |id: u16| scene.materials.get(gpu_scene.part_material(usize::from(id).checked_sub(1)?)?);
+        let material = |id: u16| scene.materials.get(character.part_material(usize::from(id).checked_sub(1)?)?);
         let materials: Vec<Option<&Material>> = ids.iter().map(|id| material(*id)).collect();
         let toon_materials: Vec<&Material> =
             BTreeSet::from_iter(&ids).into_iter().filter_map(|id| material(*id)).filter(|m| !is_pbr(m)).collect();
@@ -218,9 +224,8 @@ impl Studio {
         let (shown, hidden) = parts.fold((0u32, 0u32), |(all, out), i| (all + 1, out + u32::from(left_out[i])));
         let like_theirs = if known.iter().any(|k| *k != Known::Normal) {
             let scene = known::reproduce(scene, view.camera.eye.distance(view.camera.target));
-            let mut gpu_scene = self.renderer.upload(&scene)?;
-            gpu_scene.set_pose(&scene, &setup::pose(&scene, hikage::motion::Stance::Rest, &expressions)?)?;
-            self.renderer.render(&mut gpu_scene, &view)?
+            let character = self.renderer.upload(&scene)?;
+            self.renderer.render(&mut staged(&character)?, &view)?
         } else {
             ours
         };
@@ -240,7 +245,7 @@ fn is_pbr(material: &Material) -> bool {
     !matches!(material.origin, Origin::Mtoon0 | Origin::Mtoon1 | Origin::Unlit)
 }
 
-fn view(reference: &Reference) -> Result<View, String> {
+fn seen(reference: &Reference) -> Result<(View, Lights), String> {
     if !(1..=args::MAX_SIDE).contains(&reference.width) || !(1..=args::MAX_SIDE).contains(&reference.height) {
         return Err(format!("size {} x {}", reference.width, reference.height));
     }
@@ -249,7 +254,16 @@ fn view(reference: &Reference) -> Result<View, String> {
         color => Background::Color(Srgb::from_hex(color).ok_or_else(|| format!("background {color:?}"))?),
     };
     let scaled = |color: [f32; 3], factor: f32| LinearRgb(color).scaled(factor);
-    Ok(View {
+    let lights = Lights {
+        directional: DirectionalLight {
+            to_light: Vec3::from(reference.light.dir_to_light).normalize_or(Vec3::Z),
+            color: LinearRgb(reference.light.color_linear),
+            intensity: reference.light.unit_intensity,
+        },
+        ambient: Ambient::uniform(scaled(reference.ambient.color_linear, reference.ambient.unit_intensity)),
+        ..Lights::default()
+    };
+    let view = View {
         size: [reference.width, reference.height],
         camera: Camera {
             eye: reference.camera.eye.into(),
@@ -258,18 +272,10 @@ fn view(reference: &Reference) -> Result<View, String> {
             fov_y_rad: reference.camera.fov_y_deg.to_radians(),
             near: reference.camera.near,
         },
-        lights: Lights {
-            directional: DirectionalLight {
-                to_light: Vec3::from(reference.light.dir_to_light).normalize_or(Vec3::Z),
-                color: LinearRgb(reference.light.color_linear),
-                intensity: reference.light.unit_intensity,
-            },
-            ambient: Ambient::uniform(scaled(reference.ambient.color_linear, reference.ambient.unit_intensity)),
-            ..Lights::default()
-        },
         background,
         ..View::default()
-    })
+    };
+    Ok((view, lights))
 }
 
 fn blob(figures: &Figures) -> String {

@@ -9,7 +9,7 @@ use glam::{Quat, Vec3};
 use hikage::motion::Stance;
 use hikage::picture::{encode_png, write_atomic};
 use hikage::scene::{Framing, HumanBone, Image, PunctualLight, Scene};
-use hikage::{Background, GpuScene, Output, Renderer, View};
+use hikage::{Actor, Background, Output, Renderer, Stage, View};
 
 use crate::args::LookName;
 use crate::failure::Failure;
@@ -76,11 +76,13 @@ fn draw(renderer: &mut Renderer, [plain, looked]: [&Scene; 2], sheet: &Sheet, pa
     for row in &sheet.rows {
         let mut scene = if row.is_plain { plain.clone() } else { looked.clone() };
         (row.change)(&mut scene);
-        let mut uploaded = renderer.upload(&scene)?;
+        let mut stage = Stage::of([Actor::new(&renderer.upload(&scene)?)]);
+        let lights = stage.lights.clone();
         let mut left = GAP;
         for shown in &row.panels {
             let size = [width(shown), panel];
-            let drawn = draw_panel(renderer, &mut uploaded, &scene, shown, size)?;
+            stage.lights.clone_from(&lights);
+            let drawn = draw_panel(renderer, &mut stage, &scene, shown, size)?;
             place(&mut picture, &drawn, left, top);
             write(&mut picture, &shown.caption, left, top + panel + 4);
             left += size[0] + GAP;
@@ -92,7 +94,7 @@ fn draw(renderer: &mut Renderer, [plain, looked]: [&Scene; 2], sheet: &Sheet, pa
 
 fn draw_panel(
     renderer: &mut Renderer,
-    uploaded: &mut GpuScene,
+    stage: &mut Stage,
     scene: &Scene,
     panel: &Panel,
     size: [u32; 2],
@@ -110,9 +112,8 @@ fn draw_panel(
     if let Some(head) = scene.bone_node(HumanBone::Head) {
         pose.locals[head].rotation *= Quat::from_rotation_y(panel.head_deg.to_radians());
     }
-    uploaded.set_pose(scene, &pose)?;
     let [yaw, pitch] = panel.light_deg.map(f32::to_radians);
-    let lights = &mut view.lights;
+    let lights = &mut stage.lights;
     lights.directional.to_light = Vec3::new(yaw.sin() * pitch.cos(), pitch.sin(), yaw.cos() * pitch.cos());
     lights.directional.intensity *= panel.key;
     lights.coolness = panel.coolness;
@@ -122,9 +123,10 @@ fn draw_panel(
         let position = scene.world_from_nodes(&pose.locals)[hand].w_axis.truncate() + Vec3::new(0.0, 0.17, 0.07);
         lights.punctual.push(PunctualLight { position, color, intensity, range: 0.0, spot: None });
     }
-    view.time_s = panel.time_s;
+    stage.time_s = panel.time_s;
+    stage.actors[0].pose = pose;
     view.background = Background::Color(panel.background.unwrap_or(BEHIND));
-    Ok(renderer.render(uploaded, &view)?)
+    Ok(renderer.render(stage, &view)?)
 }
 
 /// A view that a part of the character at rest fills: what of it lies on her left, so that pairs show one of both.

@@ -67,7 +67,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     }
     spinner.step("making pipelines");
     let gpu = setup::gpu(args.adapter.as_deref())?;
-    let mut stage = Stage::new(&gpu, scene, &project, sides, args.panel)?;
+    let mut stage = Preview::new(&gpu, scene, &project, sides, args.panel)?;
     let ending = args.output.extension().map(|e| e.to_ascii_lowercase().to_string_lossy().into_owned());
     let bytes = match ending.as_deref() {
         Some("gif") => stage.animation(Kind::Gif, &spinner)?,
@@ -80,9 +80,9 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     Ok(())
 }
 
-struct Stage {
+struct Preview {
     renderer: Renderer,
-    gpu_scene: hikage::GpuScene,
+    stage: hikage::Stage,
     view: View,
     sides: Sides,
     panel: u32,
@@ -91,10 +91,10 @@ struct Stage {
     is_mirrored: bool,
 }
 
-impl Stage {
+impl Preview {
     fn new(gpu: &Gpu, mut scene: Scene, project: &Project, sides: Sides, panel: u32) -> Result<Self, Failure> {
         let mut renderer = Renderer::with_output(gpu, Output::default())?;
-        let mut gpu_scene = renderer.upload_and_empty_images(&mut scene)?;
+        let character = renderer.upload_and_empty_images(&mut scene)?;
         let pose = setup::pose(&scene, Stance::Rest, &[])?;
         let mut framed = View::framed_pose(&scene, &pose, Framing::Face, 0.0, [panel; 2]);
         // From the brows to the chin.
@@ -103,17 +103,17 @@ impl Stage {
         let down = Vec3::NEG_Y * height * LOWER;
         (camera.eye, camera.target) = (camera.eye + down, camera.target + down);
         camera.fov_y_rad *= CLOSER;
-        gpu_scene.set_pose(&scene, &pose)?;
+        let stage = hikage::Stage::of([hikage::Actor::new(&character).posed(pose)]);
         let view = View { background: Background::Color(BEHIND), ..framed };
         let drawn = project.keys.iter().map(ProjectKey::angle).collect();
-        Ok(Self { renderer, gpu_scene, view, is_mirrored: sides.right.is_none(), sides, panel, drawn })
+        Ok(Self { renderer, stage, view, is_mirrored: sides.right.is_none(), sides, panel, drawn })
     }
 
     /// The face under level light from an angle, degrees to the character's left.
     fn face(&mut self, angle: f32) -> Result<Image, Failure> {
         let (sin, cos) = angle.to_radians().sin_cos();
-        self.view.lights.directional.to_light = Vec3::new(sin, 0.0, cos);
-        Ok(self.renderer.render(&mut self.gpu_scene, &self.view)?)
+        self.stage.lights.directional.to_light = Vec3::new(sin, 0.0, cos);
+        Ok(self.renderer.render(&mut self.stage, &self.view)?)
     }
 
     /// The flat mask at that angle, as large as a panel.

@@ -11,7 +11,7 @@ use hikage::motion::{Pose, Stance};
 use hikage::picture::read_png;
 use hikage::scene::{Framing, HumanBone, Image, Role, Scene};
 use hikage::sdf::Project;
-use hikage::{Background, Channel, Gpu, GpuScene, Look, Output, Renderer, View, color::Srgb};
+use hikage::{Actor, Background, Channel, Gpu, Look, Output, Renderer, Stage, View, color::Srgb};
 use hikage_character::head::sdf;
 
 /// Another driver may round edges and ramps differently, never more. Wider than for spheres: her locks have outlines of a
@@ -48,7 +48,7 @@ fn goldens() -> Goldens {
 struct Studio {
     renderer: Renderer,
     scene: Scene,
-    gpu_scene: GpuScene,
+    stage: Stage,
     goldens: Goldens,
     faults: Vec<String>,
     /// Yaw and pitch of the light.
@@ -73,12 +73,12 @@ impl Studio {
         assert!(scene.warnings.is_empty(), "{:?}", scene.warnings);
         change(&mut scene);
         let mut renderer = Renderer::with_output(&gpu, Output::default()).expect("a renderer");
-        let gpu_scene = renderer.upload_and_empty_images(&mut scene).expect("the scene is uploaded");
+        let character = renderer.upload_and_empty_images(&mut scene).expect("the scene is uploaded");
         let goldens = goldens();
         Self {
             renderer,
             scene,
-            gpu_scene,
+            stage: Stage::of([Actor::new(&character)]),
             goldens,
             faults: Vec::new(),
             light_deg: [-24.7, 33.4],
@@ -106,11 +106,12 @@ impl Studio {
         if let Some(head) = self.scene.bone_node(HumanBone::Head) {
             pose.locals[head].rotation *= Quat::from_rotation_y(self.head_deg.to_radians());
         }
-        self.gpu_scene.set_pose(&self.scene, &pose).expect("a pose of it");
+        self.stage.actors[0].pose = pose;
         let mut view =
             View { channel: self.channel, background: Background::Color(Srgb([0xdf, 0xe7, 0xee])), ..framed };
         let [yaw, pitch] = self.light_deg.map(f32::to_radians);
-        view.lights.directional.to_light = Vec3::new(yaw.sin() * pitch.cos(), pitch.sin(), yaw.cos() * pitch.cos());
+        let to_light = Vec3::new(yaw.sin() * pitch.cos(), pitch.sin(), yaw.cos() * pitch.cos());
+        self.stage.lights.directional.to_light = to_light;
         if framing == Framing::Face {
             // From the brows to the chin.
             view.camera.fov_y_rad *= 0.52;
@@ -124,7 +125,7 @@ impl Studio {
             camera.eye = camera.target + away.normalize() * metres;
             camera.fov_y_rad = 2.0 * (half_height / metres).atan();
         }
-        let picture = shrunk(&self.renderer.render(&mut self.gpu_scene, &view).expect("a picture"), FINER);
+        let picture = shrunk(&self.renderer.render(&mut self.stage, &view).expect("a picture"), FINER);
         if let Err(fault) = self.goldens.check(&format!("character-{name}"), &picture, &TOLERANCE) {
             self.faults.push(fault.to_string());
         }

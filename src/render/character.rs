@@ -1,0 +1,200 @@
+//! A character on the GPU: what all actors of it share.
+
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
+
+use super::Output;
+use super::draw_list::{self, Draw, Pipelines};
+use super::geometry::Rig;
+use super::looks::Looks;
+use super::pass::bangs_shadow::BangsFit;
+use super::pass::deform::DeformSource;
+use super::pass::prepass;
+use super::pass::shadow::ShadowFit;
+use super::pass::{Picture, Sight};
+use super::variants::{Bound, Drawn, Request, Variant, Variants};
+use crate::material::Material;
+use crate::scene::Scene;
+use crate::{Gpu, Result};
+
+/// A character on the GPU. Made by [`Renderer::upload`](crate::Renderer::upload); clones are the same one, and any number of
+/// [`Actor`](crate::Actor)s may be of it.
+#[derive(Clone, Debug)]
+pub struct Character(pub(crate) Arc<CharacterData>);
+
+/// What [`Character`] holds.
+#[derive(Debug)]
+pub(crate) struct CharacterData {
+    /// The device and the output of the renderer that has uploaded it.
+    pub made_by: (Gpu, Output),
+    /// Without images, and of the meshes with what measures them alone.
+    pub scene: Scene,
+    pub static_vertices: wgpu::Buffer,
+    pub indices: wgpu::Buffer,
+    pub source: DeformSource,
+    pub rig: Rig,
+    pub looks: Looks,
+    pub draws: Vec<Draw>,
+    /// What shows each draw in the picture that the upload has made ready.
+    pub picture: OnceLock<Shown>,
+    /// The same by what the shaders were made for.
+    pub shown: Mutex<BTreeMap<Seen, Shown>>,
+    /// Groups of materials, by what shaders bind of them.
+    pub groups: Mutex<Vec<Bound>>,
+    /// Depth of every draw that is not blended; with normals and parts, and without.
+    pub depths: Mutex<[Option<Depths>; 2]>,
+    /// Depth, normal and part of every draw, for the channels that show these.
+    pub geometry: OnceLock<Vec<Drawn>>,
+    /// Eyes and brows that are seen through hair, the foremost first.
+    pub through_order: Vec<usize>,
+    pub bangs: Option<BangsFit>,
+    pub shadow: Option<ShadowFit>,
+    /// Whether a material reads the depth of the picture, and its normals and parts.
+    pub has_prepass: bool,
+    pub has_inner_lines: bool,
+    /// Whether time moves what is cut out of a material.
+    pub cuts_move: bool,
+    /// Most shells of a coat.
+    pub shells: u32,
+    pub part_materials: Vec<usize>,
+    pub triangles: usize,
+    pub texture_bytes: u64,
+}
+
+/// What shows each draw.
+pub(crate) type Shown = Arc<[Pipelines<Drawn>]>;
+/// What draws the depth of each.
+pub(crate) type Depths = Arc<[Option<Drawn>]>;
+/// What a picture's shaders were made for: channel, point and spot lights, half floats.
+pub(crate) type Seen = (Option<String>, bool, bool);
+
+/// Bytes that a [`Character`] takes on the GPU.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
+pub struct GpuMemory {
+    /// Textures with their mips.
+    pub textures: u64,
+    /// Vertices, indices, morphs, influences, uniforms.
+    pub geometry: u64,
+}
+
+impl Character {
+    /// The scene that it was made of, without its images: nodes, bones, materials and expressions for poses, and positions
+    /// for [`View::framed`](crate::View::framed).
+    #[must_use]
+    pub fn scene(&self) -> &Scene {
+        &self.0.scene
+    }
+
+    /// Draw calls of the colour pass with everything in view, outlines and coats of fluff included.
+    #[must_use]
+    pub fn draw_count(&self) -> usize {
+        let count = |p: &Pipelines<Drawn>| 1 + usize::from(p.outline.is_some()) + usize::from(p.fluff.is_some());
+        self.0.picture().iter().map(count).sum()
+    }
+
+    /// Triangles, outlines not counted.
+    #[must_use]
+    pub fn triangle_count(&self) -> usize {
+        self.0.triangles
+    }
+
+    /// Material of a part; parts are what [`Channel::PartId`](super::Channel::PartId) numbers.
+    #[must_use]
+    pub fn part_material(&self, part: usize) -> Option<usize> {
+        self.0.part_materials.get(part).copied()
+    }
+
+    /// Bytes on the GPU; those of its actors' vertices and maps come on top.
+    #[must_use]
+    pub fn memory(&self) -> GpuMemory {
+        let data = &self.0;
+        let buffers = [&data.static_vertices, &data.indices, &data.looks.numbers].map(wgpu::Buffer::size);
+        GpuMemory { textures: data.texture_bytes, geometry: data.source.bytes() + buffers.iter().sum::<u64>() }
+    }
+}
+
+impl CharacterData {
+    /// What shows each draw in the picture that the upload has made ready.
+    pub fn picture(&self) -> &[Pipelines<Drawn>] {
+        self.picture.get().map_or(&[], |shown| shown)
+    }
+
+    /// The material of a draw as it was uploaded.
+    pub fn material(&self, draw: &Draw) -> &Material {
+        &self.looks.sources[draw.material]
+    }
+
+    /// What a variant draws a material with; groups of the same layout are shared.
+    pub fn bind(&self, gpu: &Gpu, variant: Variant, material: usize) -> Drawn {
+        let bound = variant.bound.map(|layout| {
+            let mut groups = lock(&self.groups);
+            let known = groups.iter().find(|g| g.material == material && Arc::ptr_eq(&g.layout, &layout));
+            known.cloned().unwrap_or_else(|| {
+                let group = self.looks.group(gpu, material, &layout, &self.looks.numbers, None);
+                let bound = Bound { material, layout, group };
+                groups.push(bound.clone());
+                bound
+            })
+        });
+        Drawn { pipeline: variant.pipeline, bound }
+    }
+
+    /// What is drawn with, of what was asked for.
+    pub fn made(&self, variants: &Variants, requests: Vec<Pipelines<Request>>) -> Result<Shown> {
+        variants.get_all(requests.iter().flat_map(Pipelines::iter))?;
+        let draws = requests.into_iter().zip(&self.draws);
+        draws.map(|(r, draw)| r.map(|r| Ok(self.bind(&variants.gpu, variants.get(&r)?, draw.material)))).collect()
+    }
+
+    /// What shows each draw of a picture, made when somebody first looks at its like.
+    pub fn shown(&self, variants: &Variants, picture: &Picture<'_>) -> Result<Shown> {
+        let Sight { channel, punctual, hdr } = picture.sight;
+        let seen = (channel.map(str::to_owned), punctual, hdr);
+        if let Some(shown) = lock(&self.shown).get(&seen) {
+            return Ok(Arc::clone(shown));
+        }
+        let request = |draw: &Draw| {
+            let (of, material) = (&self.looks.compositions[draw.material], self.material(draw));
+            draw_list::surface_requests(draw, of, material, picture)
+        };
+        let made = self.made(variants, self.draws.iter().map(request).collect())?;
+        lock(&self.shown).insert(seen, Arc::clone(&made));
+        Ok(made)
+    }
+
+    /// What draws the depth of each draw that is not blended.
+    pub fn depths(&self, variants: &Variants, surfaces: bool) -> Result<Depths> {
+        if let Some(depths) = &lock(&self.depths)[usize::from(surfaces)] {
+            return Ok(Arc::clone(depths));
+        }
+        let depth = |draw: &Draw| {
+            let (of, material) = (&self.looks.compositions[draw.material], self.material(draw));
+            let request = prepass::request(of, material, draw.has_vertex_colors, surfaces);
+            Ok(self.bind(&variants.gpu, variants.get(&request)?, draw.material))
+        };
+        let made: Depths =
+            self.draws.iter().map(|d| (!d.blend).then(|| depth(d)).transpose()).collect::<Result<_>>()?;
+        lock(&self.depths)[usize::from(surfaces)] = Some(Arc::clone(&made));
+        Ok(made)
+    }
+
+    /// What draws depth, normal and part of every draw.
+    pub fn geometry(&self, variants: &Variants) -> Result<&[Drawn]> {
+        if self.geometry.get().is_none() {
+            let drawn = |draw: &Draw| {
+                let (of, material) = (&self.looks.compositions[draw.material], self.material(draw));
+                let request = prepass::request(of, material, draw.has_vertex_colors, true);
+                Ok(self.bind(&variants.gpu, variants.get(&request)?, draw.material))
+            };
+            let made = self.draws.iter().map(drawn).collect::<Result<_>>()?;
+            // Another thread may have made the same meanwhile.
+            let _ = self.geometry.set(made);
+        }
+        Ok(self.geometry.get().map_or(&[], Vec::as_slice))
+    }
+}
+
+/// A list that a panic elsewhere has not made worse.
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}

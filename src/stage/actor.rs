@@ -1,0 +1,47 @@
+//! One character on a stage.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use glam::{Mat4, Quat, Vec3};
+
+use crate::motion::Pose;
+use crate::render::Character;
+
+/// A character on a stage, in a place and a pose of its own.
+#[derive(Debug)]
+pub struct Actor {
+    /// What it is.
+    pub character: Character,
+    /// `world_from_character`: rotates, moves and scales evenly. Default: identity; characters face +Z.
+    pub world: Mat4,
+    /// How it is posed, and what of its materials has other numbers. Default: rest.
+    pub pose: Pose,
+    /// What tells it from others of its character.
+    pub(crate) id: u64,
+}
+
+static NEXT: AtomicU64 = AtomicU64::new(0);
+
+impl Actor {
+    /// A character at rest, at the origin.
+    #[must_use]
+    pub fn new(character: &Character) -> Self {
+        let pose = Pose::rest(character.scene());
+        let id = NEXT.fetch_add(1, Ordering::Relaxed);
+        Self { character: character.clone(), world: Mat4::IDENTITY, pose, id }
+    }
+
+    /// The same at a place, metres, turned about the vertical axis: positive towards its left.
+    #[must_use]
+    pub fn at(mut self, position: impl Into<Vec3>, yaw_rad: f32) -> Self {
+        self.world = Mat4::from_rotation_translation(Quat::from_rotation_y(yaw_rad), position.into());
+        self
+    }
+
+    /// The same in a pose.
+    #[must_use]
+    pub fn posed(mut self, pose: Pose) -> Self {
+        self.pose = pose;
+        self
+    }
+}

@@ -1,0 +1,73 @@
+//! A stage: characters in places and poses of their own, and the light on them.
+
+mod actor;
+pub(crate) mod body;
+pub(crate) mod crowd;
+
+pub use actor::Actor;
+
+use glam::Mat4;
+
+use crate::scene::{Lights, Post};
+use crate::{Error, Result};
+use body::Bodies;
+
+/// What is drawn: actors, and what falls on all of them. Plain data that an application changes as it likes between frames;
+/// [`Renderer::prepare`](crate::Renderer::prepare) finds what has changed.
+#[derive(Debug, Default)]
+pub struct Stage {
+    /// The actors.
+    pub actors: Vec<Actor>,
+    /// Light on all of them. Default: that of the first actor's scene, else [`Lights::default`].
+    pub lights: Lights,
+    /// Time of everything that is animated by time alone, seconds. Default: 0.
+    pub time_s: f32,
+    /// What is done to the whole picture. Default: what the first actor's scene says.
+    pub post: Option<Post>,
+    pub(crate) bodies: Bodies,
+}
+
+impl Stage {
+    /// A stage of these actors, under the light of the first one's scene.
+    #[must_use]
+    pub fn of(actors: impl IntoIterator<Item = Actor>) -> Self {
+        let actors: Vec<Actor> = actors.into_iter().collect();
+        let first = actors.first().map(|a| a.character.scene());
+        Self {
+            lights: first.and_then(|s| s.lights.clone()).unwrap_or_default(),
+            post: first.and_then(|s| s.post),
+            actors,
+            ..Self::default()
+        }
+    }
+
+    /// Refuses what cannot be drawn.
+    pub(crate) fn check(&self) -> Result<()> {
+        let fault = |what: String, message: String| Err(Error::Argument { what, message });
+        for (i, actor) in self.actors.iter().enumerate() {
+            if !actor.world.is_finite() || actor.world.determinant() == 0.0 {
+                let message = "is not finite, or flat; expected a place in the world".to_owned();
+                return fault(format!("actors[{i}].world"), message);
+            }
+            if let Some(j) = self.actors[..i].iter().position(|other| other.id == actor.id) {
+                let message = format!("is the actor at {j}; an actor stands once on a stage, Actor::new makes another");
+                return fault(format!("actors[{i}]"), message);
+            }
+        }
+        if !self.time_s.is_finite() {
+            return fault("time".to_owned(), format!("is {} s; expected a number", self.time_s));
+        }
+        self.lights.check()
+    }
+
+    /// Places of the actors.
+    pub(crate) fn places(&self) -> impl Iterator<Item = &Mat4> {
+        self.actors.iter().map(|a| &a.world)
+    }
+
+    /// Draw calls of a frame's colour pass with everything in view, outlines and coats of fluff included.
+    #[must_use]
+    pub fn draw_count(&self) -> usize {
+        self.actors.iter().map(|a| a.character.draw_count()).sum()
+    }
+}
