@@ -8,7 +8,7 @@ use std::{path::PathBuf, time::Duration};
 use criterion::{Criterion, criterion_group, criterion_main};
 use hikage::{
     Gpu, Renderer, View,
-    bench::{BenchOptions, Stage},
+    bench::{Bench, BenchOptions},
     import,
     scene::Framing,
 };
@@ -33,10 +33,10 @@ fn benches(c: &mut Criterion) {
     });
     for side in [512, 1024] {
         let view = View::framed(&scene, Framing::Portrait, 0.0, [side; 2]);
-        let mut stage = Stage::new(&gpu, &scene, &BenchOptions { view, ..BenchOptions::default() }).expect("uploads");
+        let mut bench = Bench::new(&gpu, &scene, &BenchOptions { view, ..BenchOptions::default() }).expect("uploads");
         let mut group = c.benchmark_group(format!("{side}x{side}"));
-        group.bench_function("frame", |b| b.iter(|| stage.frame().expect("draws")));
-        group.bench_function("floor", |b| b.iter(|| stage.floor().expect("draws")));
+        group.bench_function("frame", |b| b.iter(|| bench.frame().expect("draws")));
+        group.bench_function("floor", |b| b.iter(|| bench.floor().expect("draws")));
     }
 }
 

@@ -8,8 +8,7 @@ use hikage::{
     scene::{Image, Scene},
 };
 
-use crate::support::Shot;
-use crate::support::{Lent, cube, render, scene, sphere, square, texture, two_tone, view};
+use crate::support::{Lent, Shot, cube, render, scene, sphere, square, texture, two_tone, view};
 
 /// Inside, two colour steps, and no more than one over a flat tile (values at the middle of a step round either way).
 /// Along edges one of four samples may fall to the other side, in small groups.

@@ -5,8 +5,7 @@ use hikage::Channel;
 use hikage::color::LinearRgb;
 use hikage::scene::{Ambient, Bangs, Framing, Image, Role, Scene};
 
-use crate::support::Shot;
-use crate::support::{self, anime_heroine, gpu, render};
+use crate::support::{self, Shot, anime_heroine, gpu, render};
 
 /// Her face, lit from above and a little from the left.
 fn face(scene: &Scene, side: u32) -> Shot {

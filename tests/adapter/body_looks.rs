@@ -9,8 +9,7 @@ use hikage::material::{
 use hikage::scene::{Ambient, Bloom, Image, Post, PunctualLight, Scene, SelfShadow, ToneCurve};
 use hikage::{Background, Channel, Output};
 
-use crate::support::Shot;
-use crate::support::{gpu, pixel, render, render_with, scene, sphere, square, texture, two_tone, view};
+use crate::support::{Shot, gpu, pixel, render, render_with, scene, sphere, square, texture, two_tone, view};
 
 fn ball(change: impl FnOnce(&mut Material)) -> Scene {
     let mut material = two_tone();

@@ -3,8 +3,7 @@
 use hikage::scene::{Framing, Image};
 use hikage::{Channel, Renderer};
 
-use crate::support::{self, anime_heroine, gpu, pixel};
-use crate::support::{Shoot, Shot, staged};
+use crate::support::{self, Shoot, Shot, anime_heroine, gpu, pixel, staged};
 
 const SHADING: [Channel; 10] = [
     Channel::Look("face-shadow"),

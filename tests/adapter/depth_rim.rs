@@ -5,8 +5,7 @@ use hikage::material::{Base, DepthRim, Material, Shading, Toon};
 use hikage::scene::Image;
 use hikage::{Background, Channel, color::Srgb};
 
-use crate::support::Shot;
-use crate::support::{Lent, gpu, pixel, render, scene, sphere, square, view};
+use crate::support::{Lent, Shot, gpu, pixel, render, scene, sphere, square, view};
 
 fn rimmed(width_px: f32) -> Material {
     let depth_rim = Some(DepthRim { color: [1.0; 3], width_px, light_side: [-1.5, -1.2], ..DepthRim::default() });

@@ -5,8 +5,7 @@ use hikage::Renderer;
 use hikage::material::{Base, Layer, Material, Shading, TextureRef, Toon};
 use hikage::scene::{Framing, Image, Role, Scene};
 
-use crate::support::{self, gpu, pixel, render, scene, square, texture, view};
-use crate::support::{Shoot, Shot, staged};
+use crate::support::{self, Shoot, Shot, gpu, pixel, render, scene, square, staged, texture, view};
 
 const COLORS: [[f32; 3]; 4] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 1.0, 0.0]];
 

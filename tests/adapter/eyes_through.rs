@@ -4,8 +4,7 @@ use glam::Mat4;
 use hikage::Channel;
 use hikage::scene::{EyesThrough, Framing, Image, Scene};
 
-use crate::support::Shot;
-use crate::support::{self, gpu, render};
+use crate::support::{self, Shot, gpu, render};
 
 fn heroine(through: Option<EyesThrough>) -> Scene {
     let mut scene = support::heroine();

@@ -10,8 +10,7 @@ use hikage::scene::{Ambient, Framing, HumanBone, Image, Role, Scene};
 use hikage::sdf::FaceMap;
 use hikage::{Look, Renderer};
 
-use crate::support::{self, Lent, gpu};
-use crate::support::{Shoot, Shot, staged};
+use crate::support::{self, Lent, Shoot, Shot, gpu, staged};
 
 fn heroine() -> Scene {
     let mut scene = support::anime_heroine();

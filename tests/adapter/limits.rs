@@ -5,8 +5,7 @@ use std::path::Path;
 use hikage::scene::Framing;
 use hikage::{Gpu, Look, Renderer, import};
 
-use crate::support::{Shoot, Shot, staged};
-use crate::support::{anime_heroine, gpu, render};
+use crate::support::{Shoot, Shot, anime_heroine, gpu, render, staged};
 
 /// The adapter of the tests with no limit above the defaults.
 fn default_device(name: &str) -> Gpu {

@@ -4,8 +4,7 @@ use hikage::material::{Material, Section, TextureRef, register};
 use hikage::scene::{Image, Scene};
 use hikage::{Channel, Gpu, LookFile, Renderer};
 
-use crate::support::{Shoot, Shot, staged};
-use crate::support::{gpu, scene, sphere, two_tone, view};
+use crate::support::{Shoot, Shot, gpu, scene, sphere, staged, two_tone, view};
 
 macro_rules! tint {
     ($name:ident, $key:literal, $text:expr) => {

@@ -6,8 +6,7 @@ use hikage::color::LinearRgb;
 use hikage::material::{CastShadow, Material};
 use hikage::scene::{Ambient, Framing, Image, Scene, SelfShadow};
 
-use crate::support::{Shoot, Shot, staged};
-use crate::support::{anime_heroine, gpu, pixel, render, scene, sphere, square, two_tone, view};
+use crate::support::{Shoot, Shot, anime_heroine, gpu, pixel, render, scene, sphere, square, staged, two_tone, view};
 
 fn with_shadow(received: f32, casts: bool) -> Material {
     Material { cast_shadow: Some(CastShadow { casts, received }), ..two_tone() }

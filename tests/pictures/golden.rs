@@ -13,8 +13,7 @@ use hikage::{
     scene::{Ambient, Image, PunctualLight, Sampler, Scene, SpotCone, Wrap},
 };
 
-use crate::support::Shot;
-use crate::support::{cube, gpu, render, scene, sphere, square, texture, two_tone, view};
+use crate::support::{Shot, cube, gpu, render, scene, sphere, square, texture, two_tone, view};
 
 /// Another driver may round edges and ramps differently, never more.
 const TOLERANCE: Tolerance = Tolerance { channel: 6, outliers: 0.004, blob: 12, drift: 1.0 };

@@ -10,8 +10,9 @@ use hikage::material::{
 };
 use hikage::scene::{Ambient, Bloom, Image, Post, PunctualLight, Scene, ToneCurve};
 
-use crate::support::{Lent, cube, gpu, render, scene, sphere, square, texture, two_tone, view, with_renderer};
-use crate::support::{Shoot, Shot, staged};
+use crate::support::{
+    Lent, Shoot, Shot, cube, gpu, render, scene, sphere, square, staged, texture, two_tone, view, with_renderer,
+};
 
 /// Another driver may round edges and ramps differently, never more.
 const TOLERANCE: Tolerance = Tolerance { channel: 6, outliers: 0.006, blob: 16, drift: 1.0 };

@@ -5,8 +5,7 @@ use hikage::motion::Pose;
 use hikage::scene::{Framing, HumanBone, Image, Scene};
 use hikage::{Background, Renderer, Stage, color::Srgb};
 
-use crate::support::{self, Lent, gpu};
-use crate::support::{Shoot, Shot, staged};
+use crate::support::{self, Lent, Shoot, Shot, gpu, staged};
 
 /// Pictures are drawn this much finer and averaged, so that what moves by less than a pixel changes by as much.
 const FINER: u32 = 3;

@@ -7,8 +7,7 @@ use hikage::motion::Pose;
 use hikage::scene::{Influences, Mesh, MorphTarget, Node, Scene, Skin, Transform};
 
 use super::{close, srgb};
-use crate::support::{Shoot, staged};
-use crate::support::{cube, gpu, pixel, render, scene, sphere, square, two_tone, view};
+use crate::support::{Shoot, cube, gpu, pixel, render, scene, sphere, square, staged, two_tone, view};
 
 #[test]
 fn double_sided_surfaces_face_the_viewer_on_both_sides() {

@@ -6,8 +6,7 @@ use hikage::color::Srgb;
 use hikage::material::{Base, Material, Outline, OutlineTint, OutlineWidth, Shading, Toon};
 use hikage::scene::Image;
 
-use crate::support::{Shoot, staged};
-use crate::support::{cube, gpu, pixel, render, scene, sphere, texture, two_tone, view};
+use crate::support::{Shoot, cube, gpu, pixel, render, scene, sphere, staged, texture, two_tone, view};
 
 /// Without a hue of its own, so that a green line is what is green.
 fn grey() -> Material {

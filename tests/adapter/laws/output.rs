@@ -6,8 +6,7 @@ use hikage::scene::Scene;
 use hikage::{Channel, Output, Renderer};
 
 use super::close;
-use crate::support::{Shoot, Shot, staged};
-use crate::support::{gpu, pixel, render, render_with, scene, sphere, square, two_tone, view};
+use crate::support::{Shoot, Shot, gpu, pixel, render, render_with, scene, sphere, square, staged, two_tone, view};
 
 #[test]
 fn parts_are_numbered_in_the_order_of_nodes() {
