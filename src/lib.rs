@@ -5,21 +5,22 @@
 //! has no words for.
 //!
 //! ```no_run
-//! use hikage::{Gpu, Renderer, View, import, picture, scene::Framing};
+//! use hikage::{Actor, Gpu, Renderer, Stage, View, import, picture, scene::Framing};
 //!
 //! # fn main() -> Result<(), hikage::Error> {
 //! let scene = import::load("character.vrm")?;
 //! let gpu = Gpu::headless(None)?;
 //! let mut renderer = Renderer::new(&gpu)?;
-//! let mut character = renderer.upload(&scene)?;
+//! let mut stage = Stage::of([Actor::new(&renderer.upload(&scene)?)]);
 //! let view = View::framed(&scene, Framing::Portrait, 0.4, [1024, 1024]);
-//! let image = renderer.render(&mut character, &view)?;
+//! let image = renderer.render(&mut stage, &view)?;
 //! picture::write_png("character.png", &image)?;
 //! # Ok(())
 //! # }
 //! ```
 //!
-//! An application with a device of its own calls [`Gpu::from_parts`] and [`Renderer::encode_frame`].
+//! An application with a device of its own calls [`Gpu::from_parts`], and each frame [`Renderer::prepare`] and
+//! [`Renderer::draw`].
 //!
 //! # Conventions
 //!
@@ -46,10 +47,12 @@ pub mod sdf;
 mod stage;
 
 pub use error::{Error, Result};
+pub use glam;
 pub use gpu::{AdapterInfo, Gpu};
 pub use look::{Look, LookFile};
 pub use render::{Background, Channel, Character, GpuMemory, Output, Renderer, View, shaders};
 pub use stage::{Actor, Stage};
+pub use wgpu;
 
 /// What macros reach.
 #[doc(hidden)]

@@ -77,6 +77,12 @@ pub struct GpuMemory {
     pub geometry: u64,
 }
 
+impl std::iter::Sum for GpuMemory {
+    fn sum<I: Iterator<Item = Self>>(all: I) -> Self {
+        all.fold(Self::default(), |a, b| Self { textures: a.textures + b.textures, geometry: a.geometry + b.geometry })
+    }
+}
+
 impl Character {
     /// The scene that it was made of, without its images: nodes, bones, materials and expressions for poses, and positions
     /// for [`View::framed`](crate::View::framed).

@@ -8,6 +8,7 @@ use crate::{
     color::Srgb,
     motion::Pose,
     scene::{Camera, Framing, HumanBone, Image, Scene},
+    stage::Stage,
 };
 
 /// One picture of a scene.
@@ -183,47 +184,42 @@ impl View {
     /// [`View::framed`] of a character in a pose. Morphs do not count.
     #[must_use]
     pub fn framed_pose(scene: &Scene, pose: &Pose, framing: Framing, yaw_rad: f32, size: [u32; 2]) -> Self {
-        let world = scene.world_from_nodes(&pose.locals);
-        let (low, high) = bounds(scene, &world);
-        let joint = |bone, name| Some(world.get(joint_node(scene, bone, name)?)?.w_axis.truncate());
-        let head = joint(HumanBone::Head, "head");
-        let hips = joint(HumanBone::Hips, "hips").or_else(|| joint(HumanBone::Hips, "pelvis"));
-        let top = high.y;
-        let height = (high.y - low.y).max(1e-3);
-        let head_y = head.map_or(low.y + height * 0.82, |h| h.y);
-        // The head bone is at the base of the skull; from there to the top of the hair is about a head.
-        let head_height = (top - head_y).clamp(height * 0.05, height * 0.5);
-        let head_center = Vec3::new(
-            head.map_or((low.x + high.x) * 0.5, |h| h.x),
-            head_y + head_height * 0.45,
-            head.map_or((low.z + high.z) * 0.5, |h| h.z),
-        );
+        let Framed { target, height, width, before } = Framed::of(scene, pose, framing);
+        Self::at(target, [height, width], before, yaw_rad, size)
+    }
+
+    /// [`View::framed`] of all actors of a stage together.
+    #[must_use]
+    pub fn framed_stage(stage: &Stage, framing: Framing, yaw_rad: f32, size: [u32; 2]) -> Self {
+        if let [actor] = &stage.actors[..]
+            && actor.world == Mat4::IDENTITY
+        {
+            return Self::framed_pose(actor.character.scene(), &actor.pose, framing, yaw_rad, size);
+        }
+        let turn = Quat::from_rotation_y(yaw_rad);
+        let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+        for actor in &stage.actors {
+            let framed = Framed::of(actor.character.scene(), &actor.pose, framing);
+            let scale = actor.world.x_axis.truncate().length();
+            // As the camera sees it: right, up, towards the camera.
+            let middle = turn.inverse() * actor.world.transform_point3(framed.target);
+            let half = Vec3::new(framed.width * 0.5, framed.height * 0.5, framed.before) * scale;
+            (low, high) = (low.min(middle - half.with_z(0.0)), high.max(middle + half));
+        }
+        if stage.actors.is_empty() {
+            return Self { size, ..Self::default() };
+        }
+        let middle = (low + high) * 0.5;
+        let before = high.z - middle.z;
+        Self::at(turn * middle, [high.y - low.y, high.x - low.x], before, yaw_rad, size)
+    }
+
+    /// From a side, so that this height and width fill the picture; `before`: how far something stands before the target.
+    fn at(target: Vec3, [height, width]: [f32; 2], before: f32, yaw_rad: f32, size: [u32; 2]) -> Self {
         let aspect = size[0] as f32 / size[1].max(1) as f32;
-        let (target, visible_height, visible_width) = match framing {
-            Framing::Face => (head_center, head_height * 1.15, head_height * 1.15),
-            Framing::Portrait => (head_center - Vec3::Y * head_height * 0.25, head_height * 1.75, head_height * 1.75),
-            Framing::Bust => {
-                let above = top + head_height * 0.1;
-                let below = hips.map_or(head_y - head_height * 2.2, |h| h.y).min(head_y - head_height * 0.5);
-                (head_center.with_y((above + below) * 0.5), above - below, head_height * 2.2)
-            }
-            // Round the body's axis, so that a turning character keeps its place and size.
-            Framing::Full => (
-                Vec3::new(head_center.x, (low.y + high.y) * 0.5, head_center.z),
-                height * 1.08,
-                radius(low, high, head_center) * 2.0,
-            ),
-        };
         let camera = Camera { target, ..Camera::default() };
         let tan = (camera.fov_y_rad * 0.5).tan();
-        let distance = (visible_height * 0.5 / tan).max(visible_width * 0.5 / (tan * aspect));
-        // The nearest part of the head stands in front of its middle.
-        let distance = distance
-            + if framing == Framing::Full {
-                radius(low, high, head_center) * 0.5
-            } else {
-                head_height * 0.5
-            };
+        let distance = (height * 0.5 / tan).max(width * 0.5 / (tan * aspect)) + before;
         let eye = target + Quat::from_rotation_y(yaw_rad) * Vec3::Z * distance;
         let near = (distance * 0.05).clamp(1e-4, 0.1);
         Self { size, camera: Camera { eye, near, ..camera }, ..Self::default() }
@@ -257,6 +253,57 @@ impl View {
             return fault("channel", format!("is {name:?}; expected one of {}", known.join(", ")));
         }
         Ok(())
+    }
+}
+
+/// What of a character fills a picture, character space, metres.
+struct Framed {
+    target: Vec3,
+    height: f32,
+    width: f32,
+    /// How far its nearest part stands before the target.
+    before: f32,
+}
+
+impl Framed {
+    fn of(scene: &Scene, pose: &Pose, framing: Framing) -> Self {
+        let world = scene.world_from_nodes(&pose.locals);
+        let (low, high) = bounds(scene, &world);
+        let joint = |bone, name| Some(world.get(joint_node(scene, bone, name)?)?.w_axis.truncate());
+        let head = joint(HumanBone::Head, "head");
+        let hips = joint(HumanBone::Hips, "hips").or_else(|| joint(HumanBone::Hips, "pelvis"));
+        let top = high.y;
+        let height = (high.y - low.y).max(1e-3);
+        let head_y = head.map_or(low.y + height * 0.82, |h| h.y);
+        // The head bone is at the base of the skull; from there to the top of the hair is about a head.
+        let head_height = (top - head_y).clamp(height * 0.05, height * 0.5);
+        let head_center = Vec3::new(
+            head.map_or((low.x + high.x) * 0.5, |h| h.x),
+            head_y + head_height * 0.45,
+            head.map_or((low.z + high.z) * 0.5, |h| h.z),
+        );
+        let (target, height, width) = match framing {
+            Framing::Face => (head_center, head_height * 1.15, head_height * 1.15),
+            Framing::Portrait => (head_center - Vec3::Y * head_height * 0.25, head_height * 1.75, head_height * 1.75),
+            Framing::Bust => {
+                let above = top + head_height * 0.1;
+                let below = hips.map_or(head_y - head_height * 2.2, |h| h.y).min(head_y - head_height * 0.5);
+                (head_center.with_y((above + below) * 0.5), above - below, head_height * 2.2)
+            }
+            // Round the body's axis, so that a turning character keeps its place and size.
+            Framing::Full => (
+                Vec3::new(head_center.x, (low.y + high.y) * 0.5, head_center.z),
+                height * 1.08,
+                radius(low, high, head_center) * 2.0,
+            ),
+        };
+        // The nearest part of the head stands in front of its middle.
+        let before = if framing == Framing::Full {
+            radius(low, high, head_center) * 0.5
+        } else {
+            head_height * 0.5
+        };
+        Self { target, height, width, before }
     }
 }
 

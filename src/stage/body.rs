@@ -313,7 +313,8 @@ impl Body {
         let data = self.data();
         let from_world = self.world.inverse();
         let shadow = data.shadow.as_ref().map_or_else(ShadowRows::default, |fit| {
-            fit.rows(shadow_side, self.hips.transform_point3(fit.middle), to_light)
+            let middle = self.world.transform_point3(self.hips.transform_point3(fit.middle));
+            fit.rows(shadow_side, middle, self.world.x_axis.truncate().length(), to_light)
         });
         ActorState {
             shadow_layer: self.shadow_layer,

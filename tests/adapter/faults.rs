@@ -5,7 +5,7 @@ use hikage::motion::Pose;
 use hikage::scene::{Camera, Framing, Node, PunctualLight, Scene, SpotCone, Transform};
 use hikage::{Actor, Background, Error, Gpu, Output, Renderer, Stage, View, color::LinearRgb, color::Srgb};
 
-use crate::support::{Shoot, Shot, anime_heroine, gpu, scene, sphere, staged, texture, two_tone, view};
+use crate::support::{Shoot, Shot, anime_heroine, gpu, scene, sphere, staged, texels, texture, two_tone, view};
 use glam::{Mat4, Quat, Vec3};
 
 fn ball() -> Scene {
@@ -23,27 +23,6 @@ fn target(gpu: &Gpu, size: [u32; 2], format: wgpu::TextureFormat, samples: u32) 
         usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
         view_formats: &[],
     })
-}
-
-fn texels(gpu: &Gpu, texture: &wgpu::Texture) -> Vec<u8> {
-    let (width, height) = (texture.width(), texture.height());
-    let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
-        label: None,
-        size: u64::from(width * 4 * height),
-        usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
-        mapped_at_creation: false,
-    });
-    let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-    let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(width * 4), rows_per_image: None };
-    encoder.copy_texture_to_buffer(
-        texture.as_image_copy(),
-        wgpu::TexelCopyBufferInfo { buffer: &buffer, layout },
-        texture.size(),
-    );
-    gpu.queue.submit([encoder.finish()]);
-    buffer.slice(..).map_async(wgpu::MapMode::Read, |result| result.expect("mapped"));
-    gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("done");
-    buffer.slice(..).get_mapped_range().expect("mapped").to_vec()
 }
 
 /// The message of an error in the caller's arguments.

@@ -17,3 +17,4 @@ mod limits;
 mod oracles;
 mod own_look;
 mod self_shadow;
+mod stage;

@@ -308,3 +308,27 @@ pub fn pixel(image: &Image, x: u32, y: u32) -> [u8; 4] {
     let at = ((y * image.width + x) * 4) as usize;
     image.pixels[at..at + 4].try_into().expect("four bytes")
 }
+
+/// Texels of a texture with four bytes each, without the padding of its rows.
+pub fn texels(gpu: &Gpu, texture: &wgpu::Texture) -> Vec<u8> {
+    let (width, height) = (texture.width(), texture.height());
+    let row = (width * 4).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+    let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: None,
+        size: u64::from(row * height),
+        usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+        mapped_at_creation: false,
+    });
+    let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+    let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(row), rows_per_image: None };
+    encoder.copy_texture_to_buffer(
+        texture.as_image_copy(),
+        wgpu::TexelCopyBufferInfo { buffer: &buffer, layout },
+        texture.size(),
+    );
+    gpu.queue.submit([encoder.finish()]);
+    buffer.slice(..).map_async(wgpu::MapMode::Read, |result| result.expect("mapped"));
+    gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("done");
+    let mapped = buffer.slice(..).get_mapped_range().expect("mapped");
+    mapped.chunks_exact(row as usize).flat_map(|line| &line[..width as usize * 4]).copied().collect()
+}

@@ -34,7 +34,7 @@ struct Actor {
     shadow_to_light: vec3f,
     // Distance between two taps, shares of the width.
     shadow_spread: f32,
-    // Its middle, character space.
+    // Its middle, world space.
     shadow_middle: vec3f,
     // Layer of its map; below 0 it has none.
     shadow_layer: f32,

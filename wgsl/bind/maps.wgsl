@@ -1,6 +1,6 @@
 // Maps of shadows: those of the bangs on faces, and those of the key light.
 import package::bind::actor::actors;
-import package::bind::vertex::{Vertex, world_position};
+import package::bind::vertex::Vertex;
 import package::lib::bangs::{BANGS_BLOCK, BANGS_TAPS, bangs_weight, esm_taps};
 import package::lib::shadow::{shadow_edge, shadow_place};
 
@@ -29,18 +29,16 @@ fn bangs_from_world(actor: u32, position: vec3f) -> vec3f {
     return vec3f(dot(a.bangs_world_row_u, p), dot(a.bangs_world_row_v, p), dot(a.bangs_world_row_depth, p));
 }
 
-// Place of a point of the world in the shadow map of the actor that a vertex belongs to. Actors scale evenly.
-fn shadow_from_world(v: Vertex, position: vec3f) -> vec3f {
-    let a = &actors[v.actor];
-    let d = position - world_position(v, a.shadow_middle);
-    let scale = a.shadow_scale / length(v.world_row_x.xyz);
-    return shadow_place(d, a.shadow_right, a.shadow_up, a.shadow_to_light, scale);
+// Place of a point of the world in the shadow map of an actor.
+fn shadow_from_world(actor: u32, position: vec3f) -> vec3f {
+    let a = &actors[actor];
+    return shadow_place(position - a.shadow_middle, a.shadow_right, a.shadow_up, a.shadow_to_light, a.shadow_scale);
 }
 
 // The same for a receiver with its normal, which is moved towards the light; w is the layer.
 fn shadow_receiver(v: Vertex, position: vec3f, normal: vec3f) -> vec4f {
     let a = &actors[v.actor];
-    let at = shadow_from_world(v, position);
+    let at = shadow_from_world(v.actor, position);
     // Most where the surface lies along the light.
     let n_dot_l = dot(normal, a.shadow_to_light);
     let along = sqrt(saturate(1.0 - n_dot_l * n_dot_l));

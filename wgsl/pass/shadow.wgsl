@@ -7,7 +7,7 @@ import package::material::stage_gone;
 @vertex
 fn vs_main(in: VertexInput) -> Varying {
     let v = vertex_of(in);
-    let at = shadow_from_world(v, world_position(v, v.position));
+    let at = shadow_from_world(v.extra, world_position(v, v.position));
     var out: Varying;
     // What stands before the map's range casts from its front.
     out.clip_position = vec4f(at.x * 2.0 - 1.0, 1.0 - at.y * 2.0, max(at.z, 0.0), 1.0);

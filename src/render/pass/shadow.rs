@@ -40,7 +40,7 @@ pub(crate) struct ShadowRows {
     /// Shares of the width.
     pub bias: f32,
     pub spread: f32,
-    /// Character space.
+    /// World space.
     pub middle: Vec3,
 }
 
@@ -53,8 +53,8 @@ pub(crate) struct ShadowInputs<'a> {
 }
 
 impl ShadowFit {
-    /// Places in a map while the middle stands there and the light so, in the world.
-    pub fn rows(&self, side: u32, middle: Vec3, to_light: Vec3) -> ShadowRows {
+    /// Places in a map while the middle stands there and the light so, in the world; `scale` is that of the actor.
+    pub fn rows(&self, side: u32, middle: Vec3, scale: f32, to_light: Vec3) -> ShadowRows {
         let to_light = to_light.normalize_or(Vec3::Z);
         // The camera's up is the world's, unless the light comes from there.
         let right = Vec3::Y.cross(to_light).try_normalize().filter(|r| r.is_finite()).unwrap_or(Vec3::X);
@@ -64,7 +64,7 @@ impl ShadowFit {
             right,
             up: to_light.cross(right),
             to_light,
-            scale: 1.0 / width,
+            scale: 1.0 / width / scale,
             bias: self.settings.bias_texels * texel,
             // Three taps of a texel each span the edge.
             spread: (self.settings.soft_width_m / (3.0 * width)).max(texel),

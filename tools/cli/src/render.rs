@@ -6,7 +6,7 @@ use std::time::Instant;
 use glam::Vec3;
 use hikage::motion::{Pose, Stance};
 use hikage::picture::{encode_png, write_atomic};
-use hikage::scene::{Lights, Scene};
+use hikage::scene::Scene;
 use hikage::{Actor, Background, Channel, GpuMemory, Output, Renderer, Stage, View};
 use serde::Serialize;
 
@@ -27,6 +27,7 @@ Examples:
   hikage render girl.vrm -o girl.png --view bust --yaw 25 --pose relaxed
   hikage render girl.vrm -o icon.png --size 256x256 --background none --expression happy,blink=0.3
   hikage render girl.vrm -o again.png --shot shot.json
+  hikage render girl.vrm boy.vrm@0.8,0,-0.2@yaw=-30 -o both.png --view full
 
 SHOT.json (every field may be missing; options given here win over it):
   {\"size\": [1024, 1024], \"background\": \"#808080\", \"ambient\": [0.1, 0.1, 0.1],
@@ -35,8 +36,10 @@ SHOT.json (every field may be missing; options given here win over it):
 Metres; the character stands at the origin and faces +Z. Colours of light are linear; intensity 1 shows a material's
 lit colour exactly.")]
 pub(crate) struct Args {
-    /// Model: .vrm, .glb or .gltf [default: the built-in character].
-    model: Option<PathBuf>,
+    /// Models: .vrm, .glb or .gltf; each may stand elsewhere (metres) and be turned to its left (degrees). They cast shadows
+    /// on each other [default: the built-in character].
+    #[arg(value_name = "MODEL[@X,Y,Z][@yaw=DEG]", value_parser = placed)]
+    models: Vec<Placed>,
     /// Picture to write; its folder must exist.
     #[arg(short, long, value_name = "OUT.png", value_parser = png_path)]
     output: PathBuf,
@@ -148,16 +151,22 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
 
     let spinner = Spinner::new();
     spinner.step("loading the model");
-    let mut scene = timed(&mut ms.load, || setup::load(args.model.as_deref()))?;
-    show_warnings(&scene.warnings);
-    setup::apply_look(args.look.as_ref(), args.model.as_deref(), &mut scene)?;
-    let at_ease = if args.model.is_none() {
-        Stance::Relaxed
+    let built_in = [Placed::default()];
+    let models = if args.models.is_empty() {
+        &built_in[..]
     } else {
-        Stance::Rest
+        &args.models
     };
-    let pose = setup::pose(&scene, args.pose.unwrap_or(at_ease), &args.expression)?;
-    let (view, lights) = seen(args, &shot, &scene, &pose)?;
+    let mut scenes = Vec::with_capacity(models.len());
+    for model in models {
+        let scene = timed(&mut ms.load, || setup::load(model.path.as_deref()))?;
+        show_warnings(&scene.warnings);
+        scenes.push(scene);
+    }
+    for (model, scene) in models.iter().zip(&mut scenes) {
+        setup::apply_look(args.look.as_ref(), model.path.as_deref(), scene)?;
+    }
+    let poses = poses(args, models, &scenes)?;
 
     spinner.step("opening the adapter");
     let gpu = timed(&mut ms.adapter, || setup::gpu(args.adapter.as_deref()))?;
@@ -165,9 +174,13 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let output = Output { samples: args.samples, ..Output::default() };
     let mut renderer = timed(&mut ms.pipelines, || Renderer::with_output(&gpu, output))?;
     spinner.step("uploading");
-    let character = timed(&mut ms.upload, || renderer.upload_and_empty_images(&mut scene))?;
-    let mut stage = Stage::of([Actor::new(&character).posed(pose)]);
-    (stage.lights, stage.time_s) = (lights, args.time);
+    let mut actors = Vec::with_capacity(models.len());
+    for ((model, scene), pose) in models.iter().zip(&mut scenes).zip(poses) {
+        let character = timed(&mut ms.upload, || renderer.upload_and_empty_images(scene))?;
+        actors.push(Actor::new(&character).at(model.position, model.yaw_rad).posed(pose));
+    }
+    let mut stage = Stage::of(actors);
+    let view = seen(args, &shot, &mut stage)?;
     spinner.step("drawing");
     let picture = timed(&mut ms.first_frame, || renderer.render(&mut stage, &view))?;
     let png = timed(&mut ms.encode, || encode_png(&picture))?;
@@ -179,30 +192,83 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         let info = gpu.info();
         ms.total = start.elapsed().as_secs_f64() * 1e3;
         let report = Report {
-            model: args.model.as_deref().unwrap_or(Path::new(setup::BUILT_IN)).display().to_string(),
+            model: models.iter().map(Placed::name).collect::<Vec<_>>().join(", "),
             output: args.output.display().to_string(),
             adapter: AdapterReport { name: &info.name, backend: &info.backend, kind: &info.kind, driver: &info.driver },
             options: options_report(args, &view, &stage),
             ms,
             draws: stage.draw_count(),
-            triangles: scene.triangle_count(),
-            gpu_bytes: character.memory(),
-            warnings: &scene.warnings,
+            triangles: stage.actors.iter().map(|a| a.character.triangle_count()).sum(),
+            gpu_bytes: stage.actors.iter().map(|a| a.character.memory()).sum(),
+            warnings: &scenes.iter().flat_map(|s| s.warnings.clone()).collect::<Vec<_>>(),
         };
         write_atomic(path, output::json(&report)?.as_bytes())?;
     }
     Ok(())
 }
 
+/// A model and where it stands.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Placed {
+    /// The built-in character where there is none.
+    path: Option<PathBuf>,
+    position: [f32; 3],
+    yaw_rad: f32,
+}
+
+impl Placed {
+    fn name(&self) -> String {
+        self.path.as_deref().unwrap_or(Path::new(setup::BUILT_IN)).display().to_string()
+    }
+}
+
+/// A model with its place behind it.
+fn placed(text: &str) -> Result<Placed, String> {
+    let (mut rest, mut model) = (text, Placed::default());
+    // File names may hold an @ of their own.
+    while let Some((before, last)) = rest.rsplit_once('@') {
+        if let Some(turn) = last.strip_prefix("yaw=") {
+            model.yaw_rad = args::yaw(turn)?.to_radians();
+        } else if let [x, y, z] = last.split(',').collect::<Vec<_>>()[..] {
+            for (axis, number) in model.position.iter_mut().zip([x, y, z]) {
+                let metres = number.parse().ok().filter(|m: &f32| m.is_finite());
+                *axis = metres.ok_or_else(|| format!("expected metres as X,Y,Z, not {last:?}"))?;
+            }
+        } else {
+            break;
+        }
+        rest = before;
+    }
+    model.path = Some(PathBuf::from(rest));
+    Ok(model)
+}
+
+/// Poses of all models. Of several, each shows the expressions that it has.
+fn poses(args: &Args, models: &[Placed], scenes: &[Scene]) -> Result<Vec<Pose>, Failure> {
+    let has = |scene: &Scene, name: &str| scene.character.iter().flat_map(|c| &c.expressions).any(|e| e.name == name);
+    let somebody_has = |name: &str| scenes.iter().any(|scene| has(scene, name));
+    let pose = |(model, scene): (&Placed, &Scene)| {
+        let at_ease = if model.path.is_none() {
+            Stance::Relaxed
+        } else {
+            Stance::Rest
+        };
+        let expressions: Vec<(String, f32)> =
+            args.expression.iter().filter(|(name, _)| has(scene, name) || !somebody_has(name)).cloned().collect();
+        setup::pose(scene, args.pose.unwrap_or(at_ease), &expressions)
+    };
+    models.iter().zip(scenes).map(pose).collect()
+}
+
 /// What is drawn: the framing, then the shot, then the options of the command line.
-fn seen(args: &Args, shot: &Shot, scene: &Scene, pose: &Pose) -> Result<(View, Lights), Failure> {
+fn seen(args: &Args, shot: &Shot, stage: &mut Stage) -> Result<View, Failure> {
     let size = args.size.or(shot.size).unwrap_or([1024, 1024]);
     let framing = args.view.unwrap_or(ViewName::Portrait).into();
-    let framed = View::framed_pose(scene, pose, framing, args.yaw.unwrap_or(0.0).to_radians(), size);
+    let framed = View::framed_stage(stage, framing, args.yaw.unwrap_or(0.0).to_radians(), size);
     let mut view = framed.clone();
     view.background = Background::Color(hikage::color::Srgb([0x80; 3]));
-    let mut lights = scene.lights.clone().unwrap_or_default();
-    shot.apply(&mut view, &mut lights).map_err(|what| {
+    let lights = &mut stage.lights;
+    shot.apply(&mut view, lights).map_err(|what| {
         let file = args.shot.as_deref().unwrap_or(Path::new(""));
         Failure::input(format!("{}: {what}", file.display()))
     })?;
@@ -213,11 +279,12 @@ fn seen(args: &Args, shot: &Shot, scene: &Scene, pose: &Pose) -> Result<(View, L
         lights.directional.to_light = Vec3::new(yaw.sin() * pitch.cos(), pitch.sin(), yaw.cos() * pitch.cos());
     }
     lights.coolness = args.coolness.or(lights.coolness);
+    stage.time_s = args.time;
     if let Some(background) = args.background {
         view.background = background;
     }
     view.channel = args.channel;
-    Ok((view, lights))
+    Ok(view)
 }
 
 fn options_report<'a>(args: &'a Args, view: &View, stage: &Stage) -> OptionsReport<'a> {
@@ -276,5 +343,23 @@ pub(crate) fn png_path(text: &str) -> Result<PathBuf, String> {
         Ok(path)
     } else {
         Err("expected a name that ends in .png".into())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_model_may_name_its_place() {
+        let at = |path: &str, position, yaw_deg: f32| {
+            Ok(Placed { path: Some(path.into()), position, yaw_rad: yaw_deg.to_radians() })
+        };
+        assert_eq!(placed("a.vrm"), at("a.vrm", [0.0; 3], 0.0));
+        assert_eq!(placed("b.vrm@1,0,-0.5@yaw=-30"), at("b.vrm", [1.0, 0.0, -0.5], -30.0));
+        assert_eq!(placed("b.vrm@yaw=15@0,1,0"), at("b.vrm", [0.0, 1.0, 0.0], 15.0));
+        assert_eq!(placed("me@home.vrm"), at("me@home.vrm", [0.0; 3], 0.0));
+        assert!(placed("b.vrm@1,x,0").is_err_and(|e| e.contains("X,Y,Z")));
+        assert!(placed("b.vrm@yaw=left").is_err());
     }
 }
