@@ -208,18 +208,18 @@ pub(super) fn through_order(draws: &[Draw]) -> Vec<usize> {
 /// Blended draws of all bodies, by body and draw: those that write depth first, then by queue offset, then far before near
 /// (MToon, "Render Queue"); equal ones keep the order of actors and files.
 pub(crate) fn transparent_order(bodies: &[Body], eye: Vec3) -> Vec<(usize, usize)> {
-    let mut order: Vec<((bool, i32), f32, (usize, usize))> = Vec::new();
+    let mut order = Vec::new();
     for (of, body) in bodies.iter().enumerate() {
         // In character space, where distances of one body compare alike.
         let eye = body.world.inverse().transform_point3(eye);
         let scale = body.world.x_axis.truncate().length_squared();
         for (index, draw) in body.data().draws.iter().enumerate().filter(|(_, draw)| draw.blend) {
             let depth = draw.center.distance_squared(eye) * scale;
-            order.push(((!draw.write_depth, draw.queue_offset), depth, (of, index)));
+            order.push((depth, (!draw.write_depth, draw.queue_offset), (of, index)));
         }
     }
-    order.sort_by(|(a, x, i), (b, y, j)| a.cmp(b).then(y.total_cmp(x)).then(i.cmp(j)));
-    order.into_iter().map(|(_, _, place)| place).collect()
+    order.sort_by(|(x, a, i), (y, b, j)| a.cmp(b).then(y.total_cmp(x)).then(i.cmp(j)));
+    order.into_iter().map(|(.., place)| place).collect()
 }
 
 /// What every pass over surfaces binds and draws.

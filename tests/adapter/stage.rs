@@ -3,7 +3,7 @@
 use glam::{Mat4, Quat, Vec3};
 use hikage::material::{CastShadow, Outline, OutlineWidth};
 use hikage::motion::Pose;
-use hikage::scene::{Bangs, Framing, Image, Role, Scene, SelfShadow};
+use hikage::scene::{Framing, Image, Role, Scene, SelfShadow};
 use hikage::{Actor, Background, Error, Renderer, Stage};
 
 use crate::support::{HEAD, with_renderer};
@@ -173,7 +173,7 @@ fn each_face_has_the_shadow_of_its_own_bangs() {
     let gpu = gpu();
     let mut scene = anime_heroine();
     keep(&mut scene, HEAD);
-    scene.bangs = Some(scene.bangs.unwrap_or_else(Bangs::default));
+    assert!(scene.bangs.is_some());
     with_renderer(&gpu, |renderer| {
         let character = renderer.upload(&scene).expect("an upload");
         let alone = |renderer: &mut Renderer, turn: f32, x: f32| {

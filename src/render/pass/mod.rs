@@ -66,8 +66,8 @@ impl Mark {
         match self {
             Self::None => 0,
             Self::Eyes => EYES_BIT,
-            Self::Hair => HAIR_BIT | number % Self::NUMBERS,
-            Self::Through => EYES_BIT | HAIR_BIT | number % Self::NUMBERS,
+            Self::Hair => HAIR_BIT | (number % Self::NUMBERS),
+            Self::Through => EYES_BIT | HAIR_BIT | (number % Self::NUMBERS),
         }
     }
 
