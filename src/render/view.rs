@@ -11,14 +11,14 @@ use crate::{
     stage::Stage,
 };
 
-/// One picture of a scene.
+/// One picture of a stage.
 #[derive(Clone, Debug, PartialEq)]
 pub struct View {
     /// Width and height, pixels. Range 1..8192. Default: 1024 x 1024.
     pub size: [u32; 2],
     /// Camera.
     pub camera: Camera,
-    /// What is behind the scene. Default: transparent.
+    /// What is behind the actors. Default: transparent.
     pub background: Background,
     /// What is shown. Default: the shaded picture.
     pub channel: Channel,
@@ -35,7 +35,7 @@ impl Default for View {
     }
 }
 
-/// What is behind the scene.
+/// What is behind the actors.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Background {
     /// Nothing: the picture has alpha.

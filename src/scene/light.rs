@@ -1,14 +1,14 @@
-//! Lights of a view: one directional key light, ambient light, a few punctual lights.
+//! Lights of a stage: one directional key light, ambient light, a few punctual lights.
 
 use glam::Vec3;
 
 use crate::color::LinearRgb;
 use crate::{Error, Result};
 
-/// How many punctual lights a view may have.
+/// How many punctual lights a stage may have.
 pub const MAX_PUNCTUAL_LIGHTS: usize = 4;
 
-/// All lights of a view.
+/// All lights of a stage.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Lights {
     /// The key light.

@@ -56,7 +56,7 @@ pub struct Scene {
     pub animations: Vec<Animation>,
     /// VRM data: bones, expressions, look-at, springs. `None` for a plain glTF file.
     pub character: Option<Character>,
-    /// Lights that a look asks for; [`View::framed`](crate::View::framed) takes them. `None`: the default ones.
+    /// Lights that a look asks for; [`Stage::of`](crate::Stage::of) takes those of its first actor. `None`: the default ones.
     pub lights: Option<Lights>,
     /// Light of the shadow that bangs and others cast on the face. `None`: nothing does.
     pub bangs: Option<Bangs>,

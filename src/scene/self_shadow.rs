@@ -1,8 +1,9 @@
-//! The shadow that a character casts on itself.
+//! The shadow that a character casts on itself and on others.
 
 crate::part! {
-    /// A shadow map for each character (of a crowd the first [`MOST_SHADOWED`]), drawn from the key light by an orthographic
-    /// camera that is fitted to the character: near or far, its texels have the same size on it. Materials say by a
+    /// A shadow map for each actor (of a stage the first [`MOST_SHADOWED`]), drawn from the key light by an orthographic
+    /// camera that is fitted to it: near or far, its texels have the same size on it. The sixteen nearest other actors cast
+    /// into it, too. Materials say by a
     /// [`CastShadow`](crate::material::CastShadow) whether they cast and receive.
     #[derive(Copy)]
     SelfShadow {
@@ -17,5 +18,5 @@ crate::part! {
     }
 }
 
-/// Characters of a crowd that have a shadow map.
+/// Actors of a stage that have a shadow map.
 pub const MOST_SHADOWED: u32 = 8;

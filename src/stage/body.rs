@@ -118,7 +118,7 @@ impl Stage {
             };
             body.pose(&actor.pose).map_err(fault)?;
         }
-        bodies.fit(renderer, !is_same);
+        bodies.fit(renderer);
         Ok(())
     }
 }
@@ -129,19 +129,21 @@ impl Bodies {
     }
 
     /// Fits maps and lists to the bodies.
-    fn fit(&mut self, renderer: &Renderer, has_others: bool) {
+    fn fit(&mut self, renderer: &Renderer) {
         let Self { list, shadow, crowd } = self;
         let gpu = renderer.gpu();
         let crowd = crowd.get_or_insert_with(|| Crowd::new(gpu));
-        let mut is_stale = crowd.fit(gpu, list.len()) | has_others;
         let fits: Vec<_> = list.iter().filter_map(|b| b.character.0.shadow.as_ref()).collect();
-        is_stale |= ShadowMap::fit(shadow, gpu, &fits);
+        let has_other_maps = ShadowMap::fit(shadow, gpu, &fits);
+        let has_others = crowd.fit(gpu, list.len()) | has_other_maps;
         let layers = shadow.as_ref().map_or(0, ShadowMap::layers);
         let shadowed = list.iter_mut().filter(|b| b.character.0.shadow.is_some());
         shadowed.enumerate().for_each(|(i, b)| b.shadow_layer = (i < layers).then_some(i as u32));
-        if is_stale {
-            for body in list.iter_mut() {
-                body.groups = Some(renderer.body_groups(crowd, body, shadow.as_ref()));
+        for body in list.iter_mut().filter(|b| has_others || b.groups.is_none()) {
+            body.groups = Some(renderer.body_groups(crowd, body, shadow.as_ref()));
+            if has_other_maps {
+                // What was in its layer is gone.
+                body.maps = Made::not_yet(());
             }
         }
         // The bodies themselves come first.

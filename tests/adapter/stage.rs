@@ -152,19 +152,29 @@ fn actors_cast_shadows_on_each_other() {
         let mut shot = view(96, 3.0);
         // From the right: the shadow lies to the left of the board.
         shot.lights.directional.to_light = Vec3::new(1.0, 0.0, 1.0).normalize();
-        let mut draw = |actors: Vec<Actor>| {
+        let draw = |renderer: &mut Renderer, actors: Vec<Actor>| {
             let mut stage = Stage::of(actors);
             stage.lights = shot.lights.clone();
             renderer.render(&mut stage, &shot.view()).expect("a picture")
         };
-        let bare = draw(vec![Actor::new(&wall)]);
-        let both = draw(vec![Actor::new(&wall), Actor::new(&board).at([0.0, 0.0, 0.4], 0.0)]);
+        let bare = draw(renderer, vec![Actor::new(&wall)]);
+        let both = draw(renderer, vec![Actor::new(&wall), Actor::new(&board).at([0.0, 0.0, 0.4], 0.0)]);
         // 0.4 m before the wall and light at 45 degrees: 0.4 m to the left, 1.06 m are half of the picture's height.
         let x = 48 - (0.4 / 0.529 * 48.0) as u32;
         assert!(pixel(&both, x, 48)[0] + 50 < pixel(&bare, x, 48)[0], "no shadow: {:?}", pixel(&both, x, 48));
         assert_eq!(pixel(&both, x, 10), pixel(&bare, x, 10), "a shadow where none falls");
-        let far = draw(vec![Actor::new(&wall), Actor::new(&board).at([0.0, 0.0, 60.0], 0.0)]);
+        let far = draw(renderer, vec![Actor::new(&wall), Actor::new(&board).at([0.0, 0.0, 60.0], 0.0)]);
         assert_eq!(pixel(&far, x, 10), pixel(&bare, x, 10));
+        // Maps are made anew for more actors, and what is in them with them.
+        let mut stage = Stage::of([Actor::new(&wall), Actor::new(&board).at([0.0, 0.0, 0.4], 0.0)]);
+        stage.lights = shot.lights.clone();
+        let before = renderer.render(&mut stage, &shot.view()).expect("a picture");
+        stage.actors.push(Actor::new(&board).at([0.0, 0.0, -60.0], 0.0));
+        let after = renderer.render(&mut stage, &shot.view()).expect("a picture");
+        assert!(
+            before.pixels == both.pixels && after.pixels == both.pixels,
+            "the shadow goes where another actor comes"
+        );
     });
 }
 
