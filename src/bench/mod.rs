@@ -13,7 +13,7 @@ use serde::Serialize;
 
 use crate::{
     Actor, AdapterInfo, Character, Error, Gpu, GpuMemory, Output, Renderer, Result, Stage, View,
-    render::{Clock, Shown, Timed, color_target, pass::floor::FloorPass},
+    render::{Clock, Shown, Target, Timed, color_target, pass::floor::FloorPass},
     scene::Scene,
 };
 
@@ -168,7 +168,7 @@ impl Bench {
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("bench") });
         let shown = if is_frame { Shown::Picture } else { Shown::Floor(floor) };
         renderer.encode_shared(&mut encoder, stage, is_frame, clock)?;
-        renderer.encode(&mut encoder, stage, view, target, shown, clock)?;
+        renderer.encode(&mut encoder, stage, view, Target::from(&*target), shown, clock)?;
         clock.resolve(&mut encoder);
         gpu.queue.submit([encoder.finish()]);
         gpu.wait(TIMEOUT)

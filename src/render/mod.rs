@@ -15,6 +15,7 @@ pub(crate) mod material;
 pub(crate) mod pass;
 mod readback;
 pub mod shaders;
+mod target;
 mod targets;
 mod textures;
 mod upload;
@@ -30,6 +31,7 @@ mod tests;
 use std::time::Duration;
 
 pub use character::{Character, GpuMemory};
+pub use target::Target;
 pub use view::{Background, Channel, View};
 
 pub(crate) use character::CharacterData;
@@ -71,11 +73,21 @@ pub struct Output {
     pub format: wgpu::TextureFormat,
     /// Samples a pixel: 1 or 4. Default: 4.
     pub samples: u32,
+    /// Format of the depth of a host's frame ([`Target::depth`]): `Depth32Float` or `Depth24Plus`, with or without stencil;
+    /// eyes through hair need one. Default: `None`, frames with a depth of their own.
+    pub depth: Option<wgpu::TextureFormat>,
+}
+
+impl Output {
+    /// Format of the depth of colour passes.
+    pub(crate) fn depth_format(self, gpu: &Gpu) -> wgpu::TextureFormat {
+        self.depth.unwrap_or_else(|| pass::color_depth_format(gpu))
+    }
 }
 
 impl Default for Output {
     fn default() -> Self {
-        Self { format: wgpu::TextureFormat::Rgba8UnormSrgb, samples: 4 }
+        Self { format: wgpu::TextureFormat::Rgba8UnormSrgb, samples: 4, depth: None }
     }
 }
 
@@ -157,6 +169,14 @@ impl Renderer {
     /// [`Gpu::required_limits`], or the adapter refuses a resource.
     pub fn with_output(gpu: &Gpu, output: Output) -> Result<Self> {
         gpu.check_limits()?;
+        if let Some(depth) = output.depth {
+            use wgpu::TextureFormat as F;
+            let known = [F::Depth32Float, F::Depth32FloatStencil8, F::Depth24Plus, F::Depth24PlusStencil8];
+            if !known.contains(&depth) {
+                let message = format!("is {depth:?}; expected one of {known:?}");
+                return Err(Error::Argument { what: "output depth".to_owned(), message });
+            }
+        }
         if output.samples != 1 && output.samples != 4 {
             let message = format!("is {}; expected 1 or 4", output.samples);
             return Err(Error::Argument { what: "samples".to_owned(), message });
@@ -230,7 +250,7 @@ impl Renderer {
             let mut encoder =
                 gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
             self.prepare(&mut encoder, stage)?;
-            self.encode(&mut encoder, stage, view, &targets::view(&texture), shown, &Clock::off())?;
+            self.encode(&mut encoder, stage, view, Target::from(&targets::view(&texture)), shown, &Clock::off())?;
             gpu.queue.submit([encoder.finish()]);
             let texels = readback::read_texels(&gpu, &texture, FRAME_TIMEOUT)?;
             self.picture_target = Some(texture);
@@ -248,45 +268,24 @@ impl Renderer {
         self.encode_shared(encoder, stage, true, &Clock::off())
     }
 
-    /// Encodes a view of a stage that is prepared into `target`, which has the format of this renderer's [`Output`], the size
-    /// of the view, and one sample a pixel. The picture has premultiplied alpha. The application submits. The view's channel
-    /// does not count.
+    /// Encodes a view of a stage that is prepared into a [`Target`]: a texture of the output's format for a picture of its own,
+    /// or a host's colour and depth. The picture has premultiplied alpha. The application submits. The view's channel does not
+    /// count.
     ///
     /// # Errors
     /// [`Error::Argument`] for a view out of its domain, a target of another size, format or number of samples than the
     /// view and the [`Output`] have, and for actors that have come or gone since the stage was prepared.
-    pub fn draw(
+    pub fn draw<'a>(
         &mut self,
         encoder: &mut wgpu::CommandEncoder,
         stage: &Stage,
         view: &View,
-        target: &wgpu::TextureView,
+        target: impl Into<Target<'a>>,
     ) -> Result<()> {
         view.check()?;
-        self.fits(view, target.texture())?;
+        let target = target.into();
+        target.check(self.output, view, stage.post.is_some())?;
         self.encode(encoder, stage, view, target, Shown::Picture, &Clock::off())
-    }
-
-    /// Refuses a target that the pipelines do not draw into.
-    fn fits(&self, view: &View, target: &wgpu::Texture) -> Result<()> {
-        let fault = |what: &str, found: String, expected: String| {
-            let message = format!("has {found}; expected {expected}");
-            Err(Error::Argument { what: format!("target: {what}"), message })
-        };
-        let (found, wanted) = ([target.width(), target.height()], view.size);
-        if found != wanted {
-            return fault("size", format!("{} x {}", found[0], found[1]), format!("{} x {}", wanted[0], wanted[1]));
-        }
-        if target.format() != self.output.format {
-            return fault("format", format!("{:?}", target.format()), format!("{:?}", self.output.format));
-        }
-        if target.sample_count() != 1 {
-            return fault("samples", target.sample_count().to_string(), "1: the frame resolves its own".to_owned());
-        }
-        if !target.usage().contains(wgpu::TextureUsages::RENDER_ATTACHMENT) {
-            return fault("usage", format!("{:?}", target.usage()), "RENDER_ATTACHMENT".to_owned());
-        }
-        Ok(())
     }
 
     /// What views share. `clock` times its passes.
@@ -318,7 +317,7 @@ impl Renderer {
         encoder: &mut wgpu::CommandEncoder,
         stage: &Stage,
         view: &View,
-        target: &wgpu::TextureView,
+        target: Target<'_>,
         shown: Shown<'_>,
         clock: &Clock,
     ) -> Result<()> {
@@ -335,7 +334,7 @@ impl Renderer {
         self.record_surfaces(&mut pass, stage, view, shown, &pipelines);
         drop(pass);
         // Bloom, tone curve, background, smooth edges.
-        self.encode_post(encoder, view, target, post, clock);
+        self.encode_post(encoder, view, target.color, post, clock);
         Ok(())
     }
 
@@ -490,41 +489,51 @@ impl Renderer {
         &self,
         encoder: &'a mut wgpu::CommandEncoder,
         view: &View,
-        target: &wgpu::TextureView,
+        target: Target<'_>,
         post: Option<Post>,
         shown: Shown<'_>,
         clock: &Clock,
     ) -> wgpu::RenderPass<'a> {
+        use wgpu::{LoadOp, Operations, StoreOp};
         let post = self.post_targets.as_ref().filter(|_| post.is_some());
-        let targets = post.map_or(self.color_targets.as_ref(), |p| Some(&p.color));
-        let target = post.map_or(target, |p| &p.picture);
+        let own = post.map_or(self.color_targets.as_ref(), |p| Some(&p.color));
+        let color = post.map_or(target.color, |p| &p.picture);
         let clear = match shown {
             // The background comes last.
             _ if post.is_some() => wgpu::Color::TRANSPARENT,
             Shown::Channel(_) => Background::Color(Srgb([0; 3])).clear_color(self.output),
             _ => view.background.clear_color(self.output),
         };
-        let multisampled = targets.and_then(|t| t.multisampled.as_ref());
-        // Samples that are resolved need not be kept.
-        let store = if multisampled.is_some() {
-            wgpu::StoreOp::Discard
+        // A host resolves its samples itself.
+        let multisampled = own.filter(|_| target.depth.is_none()).and_then(|t| t.multisampled.as_ref());
+        let load = if target.keeps_color {
+            LoadOp::Load
         } else {
-            wgpu::StoreOp::Store
+            LoadOp::Clear(clear)
         };
+        // Samples that are resolved need not be kept; what is a host's is.
+        let store = if multisampled.is_some() {
+            StoreOp::Discard
+        } else {
+            StoreOp::Store
+        };
+        let depth = target.depth.map(|depth| (depth, LoadOp::Load, StoreOp::Store));
+        let depth = depth.or_else(|| own.map(|t| (&t.depth, LoadOp::Clear(0.0), StoreOp::Discard)));
+        let has_stencil = self.output.depth_format(self.gpu()).has_stencil_aspect();
+        // Whatever a host's stencil holds, marks begin with none.
+        let stencil = Operations { load: LoadOp::Clear(0), store: StoreOp::Discard };
         encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("colour"),
             color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                view: multisampled.unwrap_or(target),
+                view: multisampled.unwrap_or(color),
                 depth_slice: None,
-                resolve_target: multisampled.map(|_| target),
-                ops: wgpu::Operations { load: wgpu::LoadOp::Clear(clear), store },
+                resolve_target: multisampled.map(|_| color),
+                ops: Operations { load, store },
             })],
-            depth_stencil_attachment: targets.map(|t| wgpu::RenderPassDepthStencilAttachment {
-                view: &t.depth,
-                depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Discard }),
-                stencil_ops: pass::color_depth_format(self.gpu())
-                    .has_stencil_aspect()
-                    .then_some(wgpu::Operations { load: wgpu::LoadOp::Clear(0), store: wgpu::StoreOp::Discard }),
+            depth_stencil_attachment: depth.map(|(view, load, store)| wgpu::RenderPassDepthStencilAttachment {
+                view,
+                depth_ops: Some(Operations { load, store }),
+                stencil_ops: has_stencil.then_some(stencil),
             }),
             timestamp_writes: clock.render(Timed::Color),
             ..Default::default()

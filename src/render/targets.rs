@@ -2,7 +2,7 @@
 
 use super::{
     Output, bind,
-    pass::{DEPTH_FORMAT, color_depth_format, prepass::SURFACES_FORMAT},
+    pass::{DEPTH_FORMAT, prepass::SURFACES_FORMAT},
 };
 use crate::Gpu;
 
@@ -91,7 +91,7 @@ impl ColorTargets {
         Self {
             size,
             multisampled: (output.samples > 1).then(|| make("multisampled colour", output.format)),
-            depth: make("depth", color_depth_format(gpu)),
+            depth: make("depth", output.depth_format(gpu)),
         }
     }
 }

@@ -11,7 +11,7 @@ use super::material::{self, Composition, Source};
 use super::pass::bangs_shadow::{self, BangsFit, BangsMap};
 use super::pass::deform::{DeformBuffers, DeformSource};
 use super::pass::shadow::{self, ShadowFit, ShadowMap};
-use super::pass::{Picture, Sight, color_depth_format};
+use super::pass::{Picture, Sight};
 use super::textures::{self, TextureSet};
 use super::{Renderer, bind, uv_metric};
 use crate::material::{Encoding, MAX_SHELLS, Material, Surroundings, out_of_range};
@@ -130,7 +130,7 @@ impl Renderer {
         }
         let shadow = shadow_fit(scene, &geometry);
         let source = DeformSource::new(&gpu, &geometry.deform_input());
-        let draws = draw_list::draws(scene, &geometry.parts, color_depth_format(&gpu).has_stencil_aspect());
+        let draws = draw_list::draws(scene, &geometry.parts, self.output.depth_format(&gpu).has_stencil_aspect());
         let drawn = || draws.iter().map(|d| &looks.compositions[d.material]);
         let has_inner_lines = drawn().any(|c| c.needs("prepass_surfaces"));
         let cuts_move = drawn().any(|c| c.takes_part("uv"));

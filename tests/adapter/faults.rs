@@ -79,7 +79,8 @@ fn every_output_that_is_read_back_gives_the_same_picture() {
         let shot = Shot { background, ..view(64, 2.0) };
         // Samples of an encoded target are resolved on encoded values.
         let of = |format| {
-            let mut renderer = Renderer::with_output(&gpu, Output { format, samples: 1 }).expect("a renderer");
+            let mut renderer =
+                Renderer::with_output(&gpu, Output { format, samples: 1, ..Output::default() }).expect("a renderer");
             let mut stage = staged(renderer.upload(&scene));
             renderer.shoot(&mut stage, &shot).expect("a picture").pixels
         };
@@ -93,7 +94,8 @@ fn every_output_that_is_read_back_gives_the_same_picture() {
         }
     }
     let format = wgpu::TextureFormat::R8Unorm;
-    let mut renderer = Renderer::with_output(&gpu, Output { format, samples: 1 }).expect("a renderer");
+    let mut renderer =
+        Renderer::with_output(&gpu, Output { format, samples: 1, ..Output::default() }).expect("a renderer");
     let mut stage = staged(renderer.upload(&scene));
     let message = argument(renderer.shoot(&mut stage, &view(64, 2.0)));
     assert!(message.contains("R8Unorm") && message.contains("expected Rgba8Unorm"), "{message}");

@@ -309,10 +309,11 @@ pub fn pixel(image: &Image, x: u32, y: u32) -> [u8; 4] {
     image.pixels[at..at + 4].try_into().expect("four bytes")
 }
 
-/// Texels of a texture with four bytes each, without the padding of its rows.
+/// Texels of a texture, without the padding of its rows.
 pub fn texels(gpu: &Gpu, texture: &wgpu::Texture) -> Vec<u8> {
     let (width, height) = (texture.width(), texture.height());
-    let row = (width * 4).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+    let texel = texture.format().block_copy_size(None).expect("a plain format");
+    let row = (width * texel).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
     let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
         label: None,
         size: u64::from(row * height),
@@ -330,5 +331,5 @@ pub fn texels(gpu: &Gpu, texture: &wgpu::Texture) -> Vec<u8> {
     buffer.slice(..).map_async(wgpu::MapMode::Read, |result| result.expect("mapped"));
     gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("done");
     let mapped = buffer.slice(..).get_mapped_range().expect("mapped");
-    mapped.chunks_exact(row as usize).flat_map(|line| &line[..width as usize * 4]).copied().collect()
+    mapped.chunks_exact(row as usize).flat_map(|line| &line[..(width * texel) as usize]).copied().collect()
 }

@@ -111,7 +111,7 @@ pub(crate) struct Sight<'a> {
 impl<'a> Picture<'a> {
     pub fn new(gpu: &Gpu, output: Output, sight: Sight<'a>) -> Self {
         let format = if sight.hdr { HDR_FORMAT } else { output.format };
-        Self { output: Output { format, ..output }, depth_format: color_depth_format(gpu), sight }
+        Self { output: Output { format, ..output }, depth_format: output.depth_format(gpu), sight }
     }
 
     /// The request of a pass that draws surfaces into it.

@@ -56,8 +56,8 @@ fn the_same_input_gives_the_same_bytes() {
 fn targets_that_do_not_encode_show_the_same_colours() {
     let gpu = gpu();
     let scene = scene(vec![(sphere(0.5, 64, 128), two_tone())]);
-    let plain = Output { format: wgpu::TextureFormat::Rgba8Unorm, samples: 1 };
-    let encoded = Output { format: wgpu::TextureFormat::Rgba8UnormSrgb, samples: 1 };
+    let plain = Output { format: wgpu::TextureFormat::Rgba8Unorm, samples: 1, ..Output::default() };
+    let encoded = Output { format: wgpu::TextureFormat::Rgba8UnormSrgb, samples: 1, ..Output::default() };
     let a = render_with(&gpu, &scene, &view(128, 4.0), plain);
     let b = render_with(&gpu, &scene, &view(128, 4.0), encoded);
     let worst = a.pixels.iter().zip(&b.pixels).map(|(a, b)| a.abs_diff(*b)).max();

@@ -1,0 +1,293 @@
+//! Actors in the frame of a host: its colour is kept, its depth hides them, and they hide what it draws.
+
+use glam::{Mat4, Vec3};
+use hikage::material::{Base, Material, Outline, OutlineWidth, Shading};
+use hikage::scene::Scene;
+use hikage::{Actor, Error, Gpu, Output, Renderer, Stage, Target, View};
+
+use crate::support::{Shot, cube, gpu, scene, sphere, texels, two_tone, view};
+
+const COLOR: [f32; 4] = [0.1, 0.5, 0.2, 1.0];
+const HALF: f32 = 0.25;
+
+/// A ball with a line round it.
+fn ball() -> Scene {
+    let mut material = two_tone();
+    material.outline = Some(Outline { width: OutlineWidth::World { metres: 0.02 }, ..Outline::default() });
+    scene(vec![(sphere(0.3, 24, 48), material)])
+}
+
+/// The host's cube as a character.
+fn cube_inside() -> Scene {
+    let base = Base { color: COLOR, texture: None };
+    scene(vec![(cube(HALF), Material { base, shading: Shading::Unlit, ..Material::default() })])
+}
+
+/// A host that draws a cube of one colour.
+struct Host {
+    pipeline: wgpu::RenderPipeline,
+    group: wgpu::BindGroup,
+    vertices: wgpu::Buffer,
+    color: wgpu::Texture,
+    depth: wgpu::Texture,
+    resolved: wgpu::Texture,
+}
+
+impl Host {
+    fn new(gpu: &Gpu, output: Output, size: [u32; 2], clip_from_world: Mat4) -> Self {
+        use wgpu::util::DeviceExt;
+        let device = &gpu.device;
+        let depth_format = output.depth.expect("a host's depth");
+        let texture = |format, samples, more| {
+            device.create_texture(&wgpu::TextureDescriptor {
+                label: None,
+                size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
+                mip_level_count: 1,
+                sample_count: samples,
+                dimension: wgpu::TextureDimension::D2,
+                format,
+                usage: wgpu::TextureUsages::RENDER_ATTACHMENT | more,
+                view_formats: &[],
+            })
+        };
+        let [r, g, b, a] = COLOR;
+        let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: None,
+            source: wgpu::ShaderSource::Wgsl(
+                format!(
+                    "@group(0) @binding(0) var<uniform> clip_from_world: mat4x4f;
+                     @vertex fn vs(@location(0) at: vec3f) -> @builtin(position) vec4f {{
+                         return clip_from_world * vec4f(at, 1.0);
+                     }}
+                     @fragment fn fs() -> @location(0) vec4f {{ return vec4f({r}, {g}, {b}, {a}); }}"
+                )
+                .into(),
+            ),
+        });
+        let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: None,
+            layout: None,
+            vertex: wgpu::VertexState {
+                module: &module,
+                entry_point: Some("vs"),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                buffers: &[Some(wgpu::VertexBufferLayout {
+                    array_stride: 12,
+                    step_mode: wgpu::VertexStepMode::Vertex,
+                    attributes: &wgpu::vertex_attr_array![0 => Float32x3],
+                })],
+            },
+            primitive: wgpu::PrimitiveState::default(),
+            depth_stencil: Some(wgpu::DepthStencilState {
+                format: depth_format,
+                depth_write_enabled: Some(true),
+                depth_compare: Some(wgpu::CompareFunction::Greater),
+                stencil: wgpu::StencilState::default(),
+                bias: wgpu::DepthBiasState::default(),
+            }),
+            multisample: wgpu::MultisampleState { count: output.samples, ..Default::default() },
+            fragment: Some(wgpu::FragmentState {
+                module: &module,
+                entry_point: Some("fs"),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                targets: &[Some(output.format.into())],
+            }),
+            multiview_mask: None,
+            cache: None,
+        });
+        let shape = cube(HALF);
+        let corners: Vec<u8> =
+            shape.indices.iter().flat_map(|i| shape.positions[*i as usize]).flat_map(f32::to_ne_bytes).collect();
+        let numbers: Vec<u8> = clip_from_world.to_cols_array().iter().copied().flat_map(f32::to_ne_bytes).collect();
+        let buffer = |contents: &[u8], usage| {
+            device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: None, contents, usage })
+        };
+        let numbers = buffer(&numbers, wgpu::BufferUsages::UNIFORM);
+        let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: None,
+            layout: &pipeline.get_bind_group_layout(0),
+            entries: &[wgpu::BindGroupEntry { binding: 0, resource: numbers.as_entire_binding() }],
+        });
+        Self {
+            group,
+            pipeline,
+            vertices: buffer(&corners, wgpu::BufferUsages::VERTEX),
+            color: texture(output.format, output.samples, wgpu::TextureUsages::COPY_SRC),
+            depth: texture(depth_format, output.samples, wgpu::TextureUsages::empty()),
+            resolved: texture(output.format, 1, wgpu::TextureUsages::COPY_SRC),
+        }
+    }
+
+    fn views(&self) -> [wgpu::TextureView; 3] {
+        [&self.color, &self.depth, &self.resolved].map(|t| t.create_view(&wgpu::TextureViewDescriptor::default()))
+    }
+
+    /// Its cube, before or after the actors; `is_last` resolves the samples.
+    fn draw(&self, encoder: &mut wgpu::CommandEncoder, clears: bool, draws: bool, is_last: bool) {
+        let [color, depth, resolved] = self.views();
+        let grey = f64::from(0x80u8) / 255.0;
+        let linear = ((grey + 0.055) / 1.055).powf(2.4);
+        let clear = wgpu::Color { r: linear, g: linear, b: linear, a: 1.0 };
+        let has_samples = self.color.sample_count() > 1;
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("host"),
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view: &color,
+                depth_slice: None,
+                resolve_target: Some(&resolved).filter(|_| is_last && has_samples),
+                ops: wgpu::Operations {
+                    load: if clears {
+                        wgpu::LoadOp::Clear(clear)
+                    } else {
+                        wgpu::LoadOp::Load
+                    },
+                    store: wgpu::StoreOp::Store,
+                },
+            })],
+            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                view: &depth,
+                depth_ops: Some(wgpu::Operations {
+                    load: if clears {
+                        wgpu::LoadOp::Clear(0.0)
+                    } else {
+                        wgpu::LoadOp::Load
+                    },
+                    store: wgpu::StoreOp::Store,
+                }),
+                stencil_ops: self
+                    .depth
+                    .format()
+                    .has_stencil_aspect()
+                    .then_some(wgpu::Operations { load: wgpu::LoadOp::Clear(7), store: wgpu::StoreOp::Store }),
+            }),
+            ..Default::default()
+        });
+        if draws {
+            pass.set_pipeline(&self.pipeline);
+            pass.set_bind_group(0, &self.group, &[]);
+            pass.set_vertex_buffer(0, self.vertices.slice(..));
+            pass.draw(0..36, 0..1);
+        }
+    }
+
+    fn finished(&self) -> &wgpu::Texture {
+        if self.color.sample_count() > 1 {
+            &self.resolved
+        } else {
+            &self.color
+        }
+    }
+}
+
+/// A view from the side, in which the cube hides one ball and the other ball hides the cube.
+fn shot() -> Shot {
+    let mut shot = Shot { size: [128, 96], ..view(96, 3.0) };
+    shot.camera.eye = Vec3::new(0.4, 0.3, 3.0);
+    shot
+}
+
+fn actors(renderer: &mut Renderer, with_cube: bool) -> Stage {
+    let ball = renderer.upload(&ball()).expect("an upload");
+    let mut actors = vec![Actor::new(&ball).at([-0.1, 0.1, 0.5], 0.0), Actor::new(&ball).at([0.15, -0.1, -0.6], 0.0)];
+    if with_cube {
+        actors.push(Actor::new(&renderer.upload(&cube_inside()).expect("an upload")));
+    }
+    let mut stage = Stage::of(actors);
+    stage.lights = shot().lights;
+    stage
+}
+
+#[test]
+fn a_hosts_cube_hides_and_is_hidden_as_one_drawn_inside() {
+    use wgpu::TextureFormat as F;
+    let gpu = gpu();
+    let view = shot().view();
+    let clip_from_world =
+        view.camera.clip_from_view(view.size[0] as f32 / view.size[1] as f32) * view.camera.view_from_world();
+    for (format, samples, depth) in [
+        (F::Rgba8UnormSrgb, 4, F::Depth32Float),
+        (F::Rgba8UnormSrgb, 1, F::Depth24Plus),
+        (F::Rgba8UnormSrgb, 4, F::Depth24PlusStencil8),
+        (F::Rgba16Float, 4, F::Depth32Float),
+    ] {
+        let output = Output { format, samples, depth: Some(depth) };
+        // The same inside of a picture of its own, with the host's kind of depth.
+        let mut own = Renderer::with_output(&gpu, Output { depth: None, ..output }).expect("a renderer");
+        let mut stage = actors(&mut own, true);
+        let inside = Host::new(&gpu, output, view.size, clip_from_world);
+        let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        own.prepare(&mut encoder, &mut stage).expect("a stage");
+        own.draw(&mut encoder, &stage, &view, &inside.views()[2]).expect("a view");
+        gpu.queue.submit([encoder.finish()]);
+        let expected = texels(&gpu, &inside.resolved);
+
+        let mut renderer = Renderer::with_output(&gpu, output).expect("a renderer");
+        let mut stage = actors(&mut renderer, false);
+        for cube_first in [true, false] {
+            let host = Host::new(&gpu, output, view.size, clip_from_world);
+            let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+            host.draw(&mut encoder, true, cube_first, false);
+            renderer.prepare(&mut encoder, &mut stage).expect("a stage");
+            let [color, depth, _] = host.views();
+            let target = Target { color: &color, keeps_color: true, depth: Some(&depth) };
+            renderer.draw(&mut encoder, &stage, &view, target).expect("a view");
+            host.draw(&mut encoder, false, !cube_first, true);
+            gpu.queue.submit([encoder.finish()]);
+            let found = texels(&gpu, host.finished());
+            let off = if format == F::Rgba8UnormSrgb {
+                expected.iter().zip(&found).filter(|(a, b)| a.abs_diff(**b) > 1).count()
+            } else {
+                expected.iter().zip(&found).filter(|(a, b)| a != b).count()
+            };
+            assert!(found.chunks_exact(4).any(|p| p != &found[..4]), "nothing is drawn");
+            // At edges that cross, samples of depths of 24 bits may fall on the other side.
+            let most = if matches!(depth.texture().format(), F::Depth32Float) {
+                0
+            } else {
+                8
+            };
+            assert!(
+                off <= most,
+                "{format:?}, {samples} samples, {:?}, cube first {cube_first}: {off} bytes differ",
+                output.depth
+            );
+        }
+    }
+}
+
+#[test]
+fn what_a_host_hands_in_must_fit() {
+    use wgpu::TextureFormat as F;
+    let gpu = gpu();
+    let view = shot().view();
+    let output = Output { depth: Some(F::Depth32Float), ..Output::default() };
+    let mut renderer = Renderer::with_output(&gpu, output).expect("a renderer");
+    let mut stage = actors(&mut renderer, false);
+    let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+    renderer.prepare(&mut encoder, &mut stage).expect("a stage");
+    let host = Host::new(&gpu, output, view.size, Mat4::IDENTITY);
+    let other = Host::new(&gpu, Output { depth: Some(F::Depth24Plus), ..output }, view.size, Mat4::IDENTITY);
+    let [color, depth, resolved] = host.views();
+    let whole = Target { color: &color, keeps_color: true, depth: Some(&depth) };
+    for (target, words) in [
+        (Target { color: &resolved, ..whole }, "samples: has 1; expected 4"),
+        (Target { depth: None, ..whole }, "expected 1"),
+        (Target { depth: Some(&other.views()[1]), ..whole }, "depth format: has Depth24Plus; expected Depth32Float"),
+        (Target { color: &resolved, depth: None, keeps_color: false }, "target: depth: has none"),
+    ] {
+        match renderer.draw(&mut encoder, &stage, &view, target) {
+            Err(e @ Error::Argument { .. }) => assert!(e.to_string().contains(words), "{e}; expected {words}"),
+            other => panic!("expected an error of {words}, not {other:?}"),
+        }
+    }
+    let far = View { size: [64, 64], ..view };
+    assert!(renderer.draw(&mut encoder, &stage, &far, whole).is_err_and(|e| e.to_string().contains("size")));
+    let strange = Output { depth: Some(F::Depth16Unorm), ..output };
+    assert!(Renderer::with_output(&gpu, strange).is_err_and(|e| e.to_string().contains("Depth16Unorm")));
+    let mut plain = Renderer::new(&gpu).expect("a renderer");
+    let mut stage = actors(&mut plain, false);
+    plain.prepare(&mut encoder, &mut stage).expect("a stage");
+    let keeps = Target { keeps_color: true, ..Target::from(&resolved) };
+    let error = plain.draw(&mut encoder, &stage, &view, keeps).expect_err("samples to resolve").to_string();
+    assert!(error.contains("keeps_color"), "{error}");
+}
