@@ -358,7 +358,7 @@ fn a_timeout_ends_the_program_in_time() {
         "triangle.gltf",
         "--frames",
         "10000",
-        "--instances",
+        "--actors",
         "4096",
         "--size",
         "2048x2048",
