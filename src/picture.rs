@@ -44,6 +44,16 @@ pub fn write_png(path: impl AsRef<Path>, picture: &Image) -> Result<()> {
     write_atomic(path, &encode_png(picture)?)
 }
 
+/// Reads a texture back that an application has drawn, as [`Renderer::render`](crate::Renderer::render) does: sRGB, straight
+/// alpha. It has one sample a texel and `COPY_SRC` among its usages; its alpha is premultiplied.
+///
+/// # Errors
+/// [`Error::Argument`] for a format that is neither RGBA nor BGRA with 8 bits nor floats;
+/// [`Error::Gpu`] where the adapter fails or does not answer.
+pub fn read_texture(gpu: &crate::Gpu, texture: &wgpu::Texture) -> Result<Image> {
+    crate::render::readback::read(gpu, texture)
+}
+
 /// Reads a PNG of any colour type as 8-bit RGBA with straight alpha.
 ///
 /// Meant for pictures of one's own, as goldens are; textures of strangers go through

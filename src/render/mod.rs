@@ -13,7 +13,7 @@ pub(crate) mod looks;
 pub(crate) mod made;
 pub(crate) mod material;
 pub(crate) mod pass;
-mod readback;
+pub(crate) mod readback;
 pub mod shaders;
 mod target;
 mod targets;

@@ -51,6 +51,13 @@ pub(crate) fn read_texels(gpu: &Gpu, texture: &wgpu::Texture, timeout: Duration)
     Ok(texels)
 }
 
+/// Reads a texture back as a picture.
+pub(crate) fn read(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Image> {
+    check(texture.format())?;
+    let texels = gpu.scoped(|| read_texels(gpu, texture, super::FRAME_TIMEOUT))??;
+    Ok(picture([texture.width(), texture.height()], texture.format(), &texels))
+}
+
 /// Refuses a format that no picture is made of.
 pub(crate) fn check(format: wgpu::TextureFormat) -> Result<()> {
     use wgpu::TextureFormat as F;

@@ -353,18 +353,8 @@ fn an_unknown_expression_is_status_1_and_leaves_the_old_picture() {
 fn a_timeout_ends_the_program_in_time() {
     let dir = folder("timeout");
     let start = Instant::now();
-    let args = [
-        "bench",
-        "triangle.gltf",
-        "--frames",
-        "10000",
-        "--actors",
-        "4096",
-        "--size",
-        "2048x2048",
-        "--timeout",
-        "0.5",
-    ];
+    let args =
+        ["bench", "triangle.gltf", "--frames", "10000", "--actors", "4096", "--size", "2048x2048", "--timeout", "0.5"];
     let output = hikage(&dir, &args);
     assert!(start.elapsed() < Duration::from_secs(20));
     let error = String::from_utf8_lossy(&output.stderr);
