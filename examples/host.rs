@@ -129,11 +129,9 @@ fn main() -> Result<(), Error> {
             actor.world = Mat4::from_translation(Vec3::new((step - 0.5) * side, 0.0, -0.35 * i as f32))
                 * Mat4::from_rotation_y(0.9 * side);
             // Legs swing against each other.
+            actor.pose.clone_from(&relaxed);
             for (bone, swing) in [(HumanBone::LeftUpperLeg, 0.5), (HumanBone::RightUpperLeg, -0.5)] {
-                if let Some(leg) = girl.scene().bone_node(bone) {
-                    let turn = Quat::from_rotation_x(swing * (step * 4.0 + i as f32).sin());
-                    actor.pose.locals[leg].rotation = turn * girl.scene().nodes[leg].transform.rotation;
-                }
+                actor.pose.turn(girl.scene(), bone, Quat::from_rotation_x(swing * (step * 4.0 + i as f32).sin()));
             }
         }
         let mut encoder = gpu.device.create_command_encoder(&Default::default());

@@ -25,8 +25,7 @@ fn main() -> Result<(), Error> {
     let actors = cast.iter().zip(characters.iter().cycle()).map(|((smile, place, yaw, stance), character)| {
         let mut pose = Pose::rest(character.scene());
         pose.set_stance(character.scene(), *stance);
-        // What a model lacks stays away.
-        let _ = pose.set_expressions(character.scene(), &[("happy".to_owned(), *smile)]);
+        pose.express(character.scene(), &[("happy", *smile)]);
         Actor::new(character).at(*place, *yaw).posed(pose)
     });
     let mut stage = Stage::of(actors);

@@ -84,6 +84,16 @@ impl Pose {
         Ok(())
     }
 
+    /// [`Pose::set_expressions`] for characters of all kinds: names that this one lacks are skipped.
+    pub fn express(&mut self, scene: &Scene, weights: &[(&str, f32)]) {
+        let expressions = scene.character.as_ref().map_or(&[] as &[Expression], |c| &c.expressions);
+        let has = |name: &str| expressions.iter().any(|e| e.name == name);
+        let known: Vec<(String, f32)> =
+            weights.iter().filter(|(name, _)| has(name)).map(|(name, weight)| ((*name).to_owned(), *weight)).collect();
+        // Nothing is left that it could refuse.
+        let _ = self.set_expressions(scene, &known);
+    }
+
     fn add_expression(&mut self, scene: &Scene, expression: &Expression, weight: f32) {
         for bind in &expression.morphs {
             if let Some(w) = self.morph_weights.get_mut(bind.node).and_then(|n| n.get_mut(bind.target)) {

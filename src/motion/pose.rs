@@ -2,10 +2,12 @@
 
 use std::collections::BTreeMap;
 
+use glam::Quat;
+
 use crate::{
     Error, Result,
     material::Material,
-    scene::{Scene, Transform},
+    scene::{HumanBone, Scene, Transform},
 };
 
 /// State of a scene at one moment. Start from [`Pose::rest`].
@@ -31,6 +33,17 @@ impl Pose {
         }
     }
 
+    /// Turns a bone about the character's own axes (x to its left, y up, z forward), whatever those of its node are, on top
+    /// of what the pose has; whether there is such a bone.
+    pub fn turn(&mut self, scene: &Scene, bone: HumanBone, by: Quat) -> bool {
+        let Some(node) = scene.bone_node(bone).filter(|n| *n < self.locals.len()) else { return false };
+        let world = scene.world_from_nodes(&self.locals);
+        let above = scene.nodes[node].parent.map_or(Quat::IDENTITY, |p| world[p].to_scale_rotation_translation().1);
+        let rotation = &mut self.locals[node].rotation;
+        *rotation = (above.inverse() * by * above * *rotation).normalize();
+        true
+    }
+
     /// Refuses what is not a pose of this scene. Empty lists are those of rest.
     pub(crate) fn check(&self, scene: &Scene) -> Result<()> {
         let fault = |what: String, message: String| Err(Error::Argument { what, message });
@@ -52,5 +65,53 @@ impl Pose {
             Some(at) => fault(format!("pose.materials[{at}]"), format!("there are {}", scene.materials.len())),
             None => Ok(()),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::Vec3;
+
+    use super::*;
+    use crate::scene::{Character, Expression, MorphBind, Node};
+
+    #[test]
+    fn a_bone_turns_about_the_axes_of_the_character() {
+        let node = |parent, rotation| Node {
+            parent,
+            transform: Transform { rotation, ..Transform::default() },
+            ..Node::default()
+        };
+        // The head's node lies on its side, under a body that is turned.
+        let scene = Scene {
+            nodes: vec![node(None, Quat::from_rotation_y(0.7)), node(Some(0), Quat::from_rotation_z(1.2))],
+            character: Some(Character { bones: [(HumanBone::Head, 1)].into(), ..Character::default() }),
+            ..Scene::default()
+        };
+        let mut pose = Pose::rest(&scene);
+        let before = scene.world_from_nodes(&pose.locals)[1];
+        assert!(pose.turn(&scene, HumanBone::Head, Quat::from_rotation_y(0.5)));
+        let after = scene.world_from_nodes(&pose.locals)[1];
+        let expected = Quat::from_rotation_y(0.5) * before.transform_vector3(Vec3::X);
+        assert!(after.transform_vector3(Vec3::X).abs_diff_eq(expected, 1e-5));
+        assert!(!pose.turn(&scene, HumanBone::Hips, Quat::IDENTITY));
+    }
+
+    #[test]
+    fn expressions_that_a_character_lacks_are_skipped_on_request() {
+        let happy = Expression {
+            name: "happy".to_owned(),
+            morphs: vec![MorphBind { node: 0, target: 0, weight: 0.5 }],
+            ..Expression::default()
+        };
+        let scene = Scene {
+            nodes: vec![Node { morph_weights: vec![0.0], ..Node::default() }],
+            character: Some(Character { expressions: vec![happy], ..Character::default() }),
+            ..Scene::default()
+        };
+        let mut pose = Pose::rest(&scene);
+        pose.express(&scene, &[("happy", 1.0), ("winking", 1.0)]);
+        assert_eq!(pose.morph_weights[0], [0.5]);
+        assert!(pose.set_expressions(&scene, &[("winking".to_owned(), 1.0)]).is_err());
     }
 }
