@@ -77,7 +77,7 @@ impl Host {
                     attributes: &wgpu::vertex_attr_array![0 => Float32x3],
                 })],
             },
-            primitive: wgpu::PrimitiveState::default(),
+            primitive: wgpu::PrimitiveState { cull_mode: Some(wgpu::Face::Back), ..Default::default() },
             depth_stencil: Some(wgpu::DepthStencilState {
                 format: depth_format,
                 depth_write_enabled: Some(true),

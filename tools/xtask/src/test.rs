@@ -12,8 +12,8 @@ pub(crate) const GOLDENS: [&str; 3] = ["golden::", "golden_looks::", "golden_cha
 
 /// Other test modules, all of the binary `adapter`, that say something about a driver. Each part of the look has its
 /// pictures among the goldens of the character.
-const ON_SECOND_DRIVER: [&str; 6] =
-    ["adapters::", "body_looks::", "depth_rim::", "laws::", "oracles::", "self_shadow::"];
+const ON_SECOND_DRIVER: [&str; 8] =
+    ["adapters::", "body_looks::", "depth_rim::", "host::", "laws::", "oracles::", "self_shadow::", "stage::"];
 
 /// Tells llvmpipe not to optimise its machine code: the first frame takes about 40 % less, and the bytes are the same.
 pub(crate) const QUICK_LLVMPIPE: [(&str, &str); 1] = [("GALLIVM_PERF", "nopt")];
