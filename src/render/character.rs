@@ -84,8 +84,8 @@ impl std::iter::Sum for GpuMemory {
 }
 
 impl Character {
-    /// The scene that it was made of, without its images: nodes, bones, materials and expressions for poses, and positions
-    /// for [`View::framed`](crate::View::framed).
+    /// The scene that it was made of, without its images and with positions and influences alone of its meshes: nodes, bones,
+    /// materials and expressions for poses, and what [`View::framed`](crate::View::framed) measures.
     #[must_use]
     pub fn scene(&self) -> &Scene {
         &self.0.scene
@@ -168,18 +168,19 @@ impl CharacterData {
         Ok(made)
     }
 
+    fn depth(&self, variants: &Variants, draw: &Draw, surfaces: bool) -> Result<Drawn> {
+        let (of, material) = (&self.looks.compositions[draw.material], self.material(draw));
+        let request = prepass::request(of, material, draw.has_vertex_colors, surfaces);
+        Ok(self.bind(&variants.gpu, variants.get(&request)?, draw.material))
+    }
+
     /// What draws the depth of each draw that is not blended.
     pub fn depths(&self, variants: &Variants, surfaces: bool) -> Result<Depths> {
         if let Some(depths) = &lock(&self.depths)[usize::from(surfaces)] {
             return Ok(Arc::clone(depths));
         }
-        let depth = |draw: &Draw| {
-            let (of, material) = (&self.looks.compositions[draw.material], self.material(draw));
-            let request = prepass::request(of, material, draw.has_vertex_colors, surfaces);
-            Ok(self.bind(&variants.gpu, variants.get(&request)?, draw.material))
-        };
-        let made: Depths =
-            self.draws.iter().map(|d| (!d.blend).then(|| depth(d)).transpose()).collect::<Result<_>>()?;
+        let depth = |draw: &Draw| (!draw.blend).then(|| self.depth(variants, draw, surfaces)).transpose();
+        let made: Depths = self.draws.iter().map(depth).collect::<Result<_>>()?;
         lock(&self.depths)[usize::from(surfaces)] = Some(Arc::clone(&made));
         Ok(made)
     }
@@ -187,12 +188,7 @@ impl CharacterData {
     /// What draws depth, normal and part of every draw.
     pub fn geometry(&self, variants: &Variants) -> Result<&[Drawn]> {
         if self.geometry.get().is_none() {
-            let drawn = |draw: &Draw| {
-                let (of, material) = (&self.looks.compositions[draw.material], self.material(draw));
-                let request = prepass::request(of, material, draw.has_vertex_colors, true);
-                Ok(self.bind(&variants.gpu, variants.get(&request)?, draw.material))
-            };
-            let made = self.draws.iter().map(drawn).collect::<Result<_>>()?;
+            let made = self.draws.iter().map(|draw| self.depth(variants, draw, true)).collect::<Result<_>>()?;
             // Another thread may have made the same meanwhile.
             let _ = self.geometry.set(made);
         }

@@ -1,6 +1,6 @@
 //! The materials of a scene on the GPU: bytes, textures, and the groups that shaders bind of them.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::bind;
@@ -108,8 +108,8 @@ impl Looks {
 pub(crate) struct Edits {
     /// Bytes of all materials, made at the first change.
     numbers: Option<wgpu::Buffer>,
-    /// Materials that a pose has changed.
-    posed: Vec<usize>,
+    /// Materials that the pose changes.
+    posed: BTreeMap<usize, Material>,
     /// Bytes of materials that have changed since the last frame.
     waiting: Vec<(usize, Vec<u8>)>,
     /// Other base textures, by material.
@@ -119,18 +119,19 @@ pub(crate) struct Edits {
 }
 
 impl Edits {
-    /// Takes the materials that a pose changes, and those that it changes no more; whether there are any.
+    /// Takes the materials that a pose changes, and those that it changes no more; whether any is another than before.
     pub fn pose(&mut self, looks: &Looks, pose: &Pose) -> bool {
-        let changed: Vec<usize> = self.posed.iter().chain(pose.materials.keys()).copied().collect();
-        for &index in &changed {
+        if self.posed == pose.materials {
+            return false;
+        }
+        for index in self.posed.keys().chain(pose.materials.keys()).copied().collect::<BTreeSet<_>>() {
             let Some(source) = looks.sources.get(index) else { continue };
             let material = pose.materials.get(&index).unwrap_or(source).clone().clamped();
             // The upload has shown that its bytes can be written.
             self.waiting.extend(looks.bytes(index, &material).ok().map(|bytes| (index, bytes)));
         }
-        self.posed.clear();
-        self.posed.extend(pose.materials.keys());
-        !changed.is_empty()
+        self.posed.clone_from(&pose.materials);
+        true
     }
 
     /// Shows another base texture of a material.

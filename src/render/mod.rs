@@ -378,10 +378,8 @@ impl Renderer {
         view: &View,
         shown: Shown<'_>,
     ) -> Result<Vec<Drawables>> {
-        if stage.bodies.list.len() != stage.actors.len() {
-            let (bodies, actors) = (stage.bodies.list.len(), stage.actors.len());
-            let message =
-                format!("has {actors} actors, of which {bodies} are prepared; please prepare it before it is drawn");
+        if !stage.bodies.are_of(&stage.actors) {
+            let message = "has other actors than when it was prepared; please prepare it before it is drawn".to_owned();
             return Err(Error::Argument { what: "stage".to_owned(), message });
         }
         let gpu = self.gpu().clone();

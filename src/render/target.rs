@@ -14,8 +14,8 @@ pub struct Target<'a> {
     pub keeps_color: bool,
     /// The depth of a host's frame, in the format of [`Output::depth`] and with the samples of the output: what the host has
     /// drawn hides the actors, and they hide what it draws afterwards. Its depth is that of
-    /// [`Camera::clip_from_view`](crate::scene::Camera::clip_from_view): 1 at the near plane, 0 at infinity. Default: none,
-    /// a depth of its own.
+    /// [`Camera::clip_from_view`](crate::scene::Camera::clip_from_view): 1 at the near plane, 0 at infinity. Its stencil does
+    /// not outlive the draw. Default: none, a depth of its own.
     pub depth: Option<&'a wgpu::TextureView>,
 }
 

@@ -98,9 +98,7 @@ impl Stage {
         for (i, actor) in actors.iter().enumerate() {
             renderer.owns(&actor.character, i)?;
         }
-        let is_same =
-            actors.len() == bodies.list.len() && actors.iter().zip(&bodies.list).all(|(actor, body)| body.is_of(actor));
-        if !is_same {
+        if !bodies.are_of(actors) {
             let mut known: HashMap<u64, Body> = bodies.list.drain(..).map(|body| (body.id, body)).collect();
             for actor in actors.iter() {
                 let body = known.remove(&actor.id).filter(|body| body.is_of(actor));
@@ -124,6 +122,11 @@ impl Stage {
 }
 
 impl Bodies {
+    /// Whether they are those of these actors.
+    pub fn are_of(&self, actors: &[Actor]) -> bool {
+        actors.len() == self.list.len() && actors.iter().zip(&self.list).all(|(actor, body)| body.is_of(actor))
+    }
+
     pub fn crowd(&self) -> Option<&Crowd> {
         self.crowd.as_ref()
     }

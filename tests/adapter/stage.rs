@@ -270,6 +270,11 @@ fn views_of_one_stage_share_what_is_prepared() {
         other => panic!("expected an error, not {other:?}"),
     }
     renderer.prepare(&mut encoder, &mut stage).expect("a stage");
+    // As many as were prepared, but another one.
+    let prepared = std::mem::replace(&mut stage.actors[0], Actor::new(&unprepared.actors[0].character));
+    let error = renderer.draw(&mut encoder, &stage, &shots[0].view(), &view(0)).expect_err("another actor").to_string();
+    assert!(error.contains("other actors"), "{error}");
+    stage.actors[0] = prepared;
     for (i, shot) in shots.iter().enumerate() {
         renderer.draw(&mut encoder, &stage, &shot.view(), &view(i)).expect("a view");
     }
