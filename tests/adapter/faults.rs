@@ -5,24 +5,11 @@ use hikage::motion::Pose;
 use hikage::scene::{Camera, Framing, Node, PunctualLight, Scene, SpotCone, Transform};
 use hikage::{Actor, Background, Error, Gpu, Output, Renderer, Stage, View, color::LinearRgb, color::Srgb};
 
-use crate::support::{Shoot, Shot, anime_heroine, gpu, scene, sphere, staged, texels, texture, two_tone, view};
+use crate::support::{Shoot, Shot, anime_heroine, gpu, scene, sphere, staged, target, texels, texture, two_tone, view};
 use glam::{Mat4, Quat, Vec3};
 
 fn ball() -> Scene {
     scene(vec![(sphere(0.5, 16, 32), two_tone())])
-}
-
-fn target(gpu: &Gpu, size: [u32; 2], format: wgpu::TextureFormat, samples: u32) -> wgpu::Texture {
-    gpu.device.create_texture(&wgpu::TextureDescriptor {
-        label: None,
-        size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
-        mip_level_count: 1,
-        sample_count: samples,
-        dimension: wgpu::TextureDimension::D2,
-        format,
-        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
-        view_formats: &[],
-    })
 }
 
 /// The message of an error in the caller's arguments.

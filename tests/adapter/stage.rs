@@ -6,7 +6,7 @@ use hikage::motion::Pose;
 use hikage::scene::{Framing, Image, Role, Scene, SelfShadow};
 use hikage::{Actor, Background, Error, Renderer, Stage};
 
-use crate::support::{HEAD, with_renderer};
+use crate::support::{HEAD, target, texels, with_renderer};
 use crate::support::{
     Shoot, Shot, anime_heroine, cube, gpu, keep, pixel, scene, sphere, square, staged, two_tone, view,
 };
@@ -249,19 +249,7 @@ fn views_of_one_stage_share_what_is_prepared() {
     let mut stage = staged(renderer.upload(&red));
     let shots = [view(64, 2.0), view(96, 3.0)];
     stage.lights = shots[0].lights.clone();
-    let target = |size: [u32; 2]| {
-        gpu.device.create_texture(&wgpu::TextureDescriptor {
-            label: None,
-            size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: wgpu::TextureFormat::Rgba8UnormSrgb,
-            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
-            view_formats: &[],
-        })
-    };
-    let targets = shots.each_ref().map(|s| target(s.size));
+    let targets = shots.each_ref().map(|s| target(&gpu, s.size, wgpu::TextureFormat::Rgba8UnormSrgb, 1));
     let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
     let unprepared = Stage::of([Actor::new(&stage.actors[0].character)]);
     let view = |i: usize| targets[i].create_view(&wgpu::TextureViewDescriptor::default());
@@ -279,9 +267,9 @@ fn views_of_one_stage_share_what_is_prepared() {
         renderer.draw(&mut encoder, &stage, &shot.view(), &view(i)).expect("a view");
     }
     gpu.queue.submit([encoder.finish()]);
-    for (target, shot) in targets.iter().zip(&shots) {
+    for (drawn, shot) in targets.iter().zip(&shots) {
         let expected = renderer.shoot(&mut stage, shot).expect("a picture");
-        assert!(expected.pixels == crate::support::texels(&gpu, target), "another view");
+        assert!(expected.pixels == texels(&gpu, drawn), "another view");
     }
 }
 

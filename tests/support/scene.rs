@@ -333,3 +333,17 @@ pub fn texels(gpu: &Gpu, texture: &wgpu::Texture) -> Vec<u8> {
     let mapped = buffer.slice(..).get_mapped_range().expect("mapped");
     mapped.chunks_exact(row as usize).flat_map(|line| &line[..(width * texel) as usize]).copied().collect()
 }
+
+/// A texture to draw into and to read back.
+pub fn target(gpu: &Gpu, size: [u32; 2], format: wgpu::TextureFormat, samples: u32) -> wgpu::Texture {
+    gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: None,
+        size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: samples,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
+        view_formats: &[],
+    })
+}
