@@ -128,7 +128,7 @@ impl Bench {
         let stage = Stage::of((0..options.actors).map(|i| Actor::new(&character).at(place(i), 0.0)));
         Ok(Self {
             gpu: gpu.clone(),
-            floor: renderer.floor(&stage)?,
+            floor: renderer.floor(&character)?,
             target: color_target(gpu, options.view.size, output),
             clock: Clock::new(gpu),
             view: options.view.clone(),

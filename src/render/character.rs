@@ -10,7 +10,7 @@ use super::looks::Looks;
 use super::pass::bangs_shadow::BangsFit;
 use super::pass::deform::DeformSource;
 use super::pass::prepass;
-use super::pass::shadow::ShadowFit;
+use super::pass::shadow::{self, ShadowFit};
 use super::pass::{Picture, Sight};
 use super::variants::{Bound, Drawn, Request, Variant, Variants};
 use crate::material::Material;
@@ -35,6 +35,7 @@ pub(crate) struct CharacterData {
     pub rig: Rig,
     pub looks: Looks,
     pub draws: Vec<Draw>,
+    pub has_blended: bool,
     /// What shows each draw in the picture that the upload has made ready.
     pub picture: OnceLock<Shown>,
     /// The same by what the shaders were made for.
@@ -43,6 +44,8 @@ pub(crate) struct CharacterData {
     pub groups: Mutex<Vec<Bound>>,
     /// Depth of every draw that is not blended; with normals and parts, and without.
     pub depths: Mutex<[Option<Depths>; 2]>,
+    /// What draws each into the shadow map of a whole stage.
+    pub world_shadows: OnceLock<Depths>,
     /// Depth, normal and part of every draw, for the channels that show these.
     pub geometry: OnceLock<Vec<Drawn>>,
     /// Eyes and brows that are seen through hair, the foremost first.
@@ -183,6 +186,20 @@ impl CharacterData {
         let made: Depths = self.draws.iter().map(depth).collect::<Result<_>>()?;
         lock(&self.depths)[usize::from(surfaces)] = Some(Arc::clone(&made));
         Ok(made)
+    }
+
+    /// What draws into the shadow map of a whole stage: all that is not blended, but for what casts nothing.
+    pub fn world_shadows(&self, variants: &Variants) -> Result<Depths> {
+        if let Some(known) = self.world_shadows.get() {
+            return Ok(Arc::clone(known));
+        }
+        let casts = |draw: &Draw| !draw.blend && self.material(draw).cast_shadow.is_none_or(|s| s.casts);
+        let drawn = |draw: &Draw| {
+            let request = shadow::request(&self.looks.compositions[draw.material], draw.has_vertex_colors);
+            Ok(self.bind(&variants.gpu, variants.get(&request)?, draw.material))
+        };
+        let made = self.draws.iter().map(|draw| casts(draw).then(|| drawn(draw)).transpose()).collect::<Result<_>>()?;
+        Ok(Arc::clone(self.world_shadows.get_or_init(|| made)))
     }
 
     /// What draws depth, normal and part of every draw.

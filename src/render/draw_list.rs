@@ -1,7 +1,10 @@
 //! Draws of a scene: made at upload in drawing order; only transparent ones are sorted by distance for each view.
 
+use std::ops::Range;
+
 use glam::Vec3;
 
+use super::character::Shown;
 use super::geometry::{Geometry, Part};
 use super::material::Composition;
 use super::pass::{
@@ -14,7 +17,9 @@ use super::{Output, uv_metric};
 use crate::material::{AlphaMode, Material, Surroundings};
 use crate::motion::Driven;
 use crate::scene::{Role, Scene};
-use crate::stage::body::Body;
+use crate::stage::body::{Bodies, Body};
+use crate::stage::crowd::Crowd;
+use crate::stage::troupe::Troupe;
 
 /// One draw: a range of indices under one material.
 #[derive(Debug)]
@@ -190,7 +195,7 @@ pub(super) fn casts_on_face(role: Role) -> bool {
 }
 
 /// What a part of this role has to do with eyes through hair.
-fn mark(role: Role) -> Mark {
+pub(super) fn mark(role: Role) -> Mark {
     match role {
         Role::Eye | Role::EyeHighlight | Role::EyeWhite | Role::Lash | Role::Brow => Mark::Eyes,
         Role::HairFront | Role::Hair => Mark::Hair,
@@ -209,7 +214,7 @@ pub(super) fn through_order(draws: &[Draw]) -> Vec<usize> {
 /// (MToon, "Render Queue"); equal ones keep the order of actors and files.
 pub(crate) fn transparent_order(bodies: &[Body], eye: Vec3) -> Vec<(usize, usize)> {
     let mut order = Vec::new();
-    for (of, body) in bodies.iter().enumerate() {
+    for (of, body) in bodies.iter().enumerate().filter(|(_, body)| body.data().has_blended) {
         // In character space, where distances of one body compare alike.
         let eye = body.world.inverse().transform_point3(eye);
         let scale = body.world.x_axis.truncate().length_squared();
@@ -225,49 +230,68 @@ pub(crate) fn transparent_order(bodies: &[Body], eye: Vec3) -> Vec<(usize, usize
 /// What every pass over surfaces binds and draws.
 #[derive(Clone, Copy)]
 pub(crate) struct Actors<'a> {
-    pub bodies: &'a [Body],
-    /// What instances stand for.
-    pub instances: &'a wgpu::Buffer,
+    pub bodies: &'a Bodies,
+    pub crowd: &'a Crowd,
     /// Group 0.
     pub frame: &'a wgpu::BindGroup,
 }
 
-impl Actors<'_> {
-    /// Binds what the draws of a body read.
-    pub fn bind(&self, pass: &mut wgpu::RenderPass<'_>, body: &Body) {
-        self.bind_group(pass, body, 0);
+impl<'a> Actors<'a> {
+    /// All troupes, with what shows their draws.
+    pub fn shown(self, shown: &'a [Shown]) -> impl Iterator<Item = (&'a Troupe, &'a Shown)> {
+        self.bodies.troupes.iter().zip(shown)
+    }
+
+    /// Binds what the draws of a troupe read.
+    pub fn bind(&self, pass: &mut wgpu::RenderPass<'_>, troupe: &Troupe) {
+        self.bind_group(pass, troupe, 0);
     }
 
     /// The same while maps of shadows are drawn.
-    pub fn bind_without_maps(&self, pass: &mut wgpu::RenderPass<'_>, body: &Body) {
-        self.bind_group(pass, body, 1);
+    pub fn bind_without_maps(&self, pass: &mut wgpu::RenderPass<'_>, troupe: &Troupe) {
+        self.bind_group(pass, troupe, 1);
     }
 
-    fn bind_group(&self, pass: &mut wgpu::RenderPass<'_>, body: &Body, which: usize) {
+    fn bind_group(&self, pass: &mut wgpu::RenderPass<'_>, troupe: &Troupe, which: usize) {
         pass.set_bind_group(0, self.frame, &[]);
-        if let Some(groups) = &body.groups {
+        if let Some(groups) = &troupe.groups {
             pass.set_bind_group(1, &groups[which], &[]);
         }
-        let data = body.data();
+        let data = troupe.data();
         pass.set_vertex_buffer(0, data.static_vertices.slice(..));
-        pass.set_vertex_buffer(1, self.instances.slice(..));
+        pass.set_vertex_buffer(1, self.crowd.instances.slice(..));
         pass.set_index_buffer(data.indices.slice(..), wgpu::IndexFormat::Uint32);
     }
-}
 
-/// Draws a draw of a body, once for each instance.
-pub(crate) fn record(
-    pass: &mut wgpu::RenderPass<'_>,
-    body: &Body,
-    draw: &Draw,
-    drawn: &Drawn,
-    instances: std::ops::Range<u32>,
-) {
-    pass.set_pipeline(&drawn.pipeline);
-    if let Some(bound) = &drawn.bound {
-        let data = body.data();
-        let edited = body.edits().group(&data.made_by.0, &data.looks, bound);
-        pass.set_bind_group(2, edited.as_ref().unwrap_or(&bound.group), &[]);
+    /// Draws a draw of a troupe, for all these instances together but for those whose actor has changed the material.
+    pub fn record(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        troupe: &Troupe,
+        draw: &Draw,
+        drawn: &Drawn,
+        instances: Range<u32>,
+    ) {
+        if instances.is_empty() {
+            return;
+        }
+        pass.set_pipeline(&drawn.pipeline);
+        let Some(bound) = &drawn.bound else { return pass.draw_indexed(draw.indices.clone(), 0, instances) };
+        let data = troupe.data();
+        let edited = |instance: u32| {
+            let edits = self.bodies.list[self.crowd.list[instance as usize].actor as usize].edits();
+            edits.group(&data.made_by.0, &data.looks, bound)
+        };
+        let mut first = instances.start;
+        while first < instances.end {
+            let group = edited(first);
+            let mut last = first + 1;
+            while group.is_none() && last < instances.end && edited(last).is_none() {
+                last += 1;
+            }
+            pass.set_bind_group(2, group.as_ref().unwrap_or(&bound.group), &[]);
+            pass.draw_indexed(draw.indices.clone(), 0, first..last);
+            first = last;
+        }
     }
-    pass.draw_indexed(draw.indices.clone(), 0, instances);
 }

@@ -3,7 +3,8 @@
 use glam::{Mat4, Vec3, Vec4};
 
 use super::layout::{Block, Filled};
-use super::pass::{bangs_shadow::BangsMap, shadow::ShadowRows};
+use super::pass::bangs_shadow::{BangsFit, BangsTile};
+use super::pass::shadow::ShadowRows;
 use super::{Background, View};
 use crate::Stage;
 use crate::scene::{EyesThrough, MAX_PUNCTUAL_LIGHTS, Post, PunctualLight, ToneCurve};
@@ -62,25 +63,43 @@ fn punctual(light: &PunctualLight) -> [[f32; 4]; 3] {
 
 /// Where an actor is, and how the light falls on it.
 pub(crate) struct ActorState<'a> {
-    /// Layer of its shadow map, where it has one.
-    pub shadow_layer: Option<u32>,
     /// Moves the head from its rest to the pose.
     pub head: Mat4,
     /// Middle of the head at rest, character space.
     pub head_middle: Vec3,
-    pub bangs: Option<&'a BangsMap>,
+    pub bangs: Option<&'a BangsFit>,
+    pub tile: BangsTile,
     pub through: Option<EyesThrough>,
     /// In her space.
     pub to_light: Vec3,
     pub from_world: Mat4,
     pub shadow: ShadowRows,
+    /// Share of the key light that arrives.
+    pub key_light: f32,
+}
+
+impl ActorState<'_> {
+    /// What stands for the whole stage: its shadow map.
+    pub fn of_stage(shadow: ShadowRows) -> Self {
+        Self {
+            head: Mat4::IDENTITY,
+            head_middle: Vec3::ZERO,
+            bangs: None,
+            tile: BangsTile::default(),
+            through: None,
+            to_light: Vec3::Z,
+            from_world: Mat4::IDENTITY,
+            shadow,
+            key_light: 1.0,
+        }
+    }
 }
 
 /// Writes the numbers of an actor.
 pub(crate) fn put_actor(gpu: &mut Block<'_>, of: &ActorState<'_>) {
-    let ActorState { head, bangs, through, shadow, .. } = of;
+    let ActorState { head, bangs, tile, through, shadow, .. } = of;
     let rows = bangs.map_or([Vec4::ZERO; 3], |b| b.rows(*head, of.to_light));
-    let [hardness, bias] = bangs.map_or([0.0; 2], BangsMap::test);
+    let [hardness, bias] = bangs.map_or([0.0; 2], BangsFit::test);
     let of_world = rows.map(|row| of.from_world.transpose() * row);
     // A bone that is scaled to nothing has no rotation.
     let axis = |axis: Vec3| head.transform_vector3(axis).normalize_or(axis).to_array();
@@ -95,6 +114,9 @@ pub(crate) fn put_actor(gpu: &mut Block<'_>, of: &ActorState<'_>) {
     gpu.put("bangs_world_row_depth", of_world[2].to_array());
     gpu.put("bangs_hardness", hardness);
     gpu.put("bangs_bias", bias);
+    gpu.put("bangs_place", tile.place);
+    gpu.put("bangs_origin", tile.origin);
+    gpu.put("bangs_side", tile.side);
     gpu.put("through_opacity", through.map_or(0.0, |t| t.opacity));
     gpu.put("through_window", through.map_or(0.0, |t| t.window_m));
     gpu.put("through_fade_yaw", through.map_or([0.0; 2], |t| t.fade_yaw_rad));
@@ -107,7 +129,8 @@ pub(crate) fn put_actor(gpu: &mut Block<'_>, of: &ActorState<'_>) {
     gpu.put("shadow_to_light", shadow.to_light.to_array());
     gpu.put("shadow_spread", shadow.spread);
     gpu.put("shadow_middle", shadow.middle.to_array());
-    gpu.put("shadow_layer", of.shadow_layer.map_or(-1.0, |layer| layer as f32));
+    gpu.put("key_light", of.key_light);
+    gpu.put("shadow_layer", shadow.layer.map_or(-1.0, |layer| layer as f32));
 }
 
 /// Writes the numbers of a finished picture.

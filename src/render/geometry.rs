@@ -5,7 +5,8 @@ use std::collections::HashMap;
 use glam::{Mat4, Vec3};
 
 use super::{
-    pass::deform::DeformInput,
+    draw_list::mark,
+    pass::{Mark, deform::DeformInput},
     vertex::{DeformGroup, DeformVertex, MorphEntry, StaticVertex, pack_unit},
 };
 use crate::{
@@ -25,6 +26,9 @@ pub(crate) struct Rig {
     pub head_middle: Vec3,
     /// Node of the hips, and the inverse of its place at rest.
     pub hips: Option<(usize, Mat4)>,
+    /// Middles and radii of spheres round its eyes and brows and round its hair at rest, character space; `None` where the ones
+    /// are not seen through the other.
+    pub eyes_and_hair: Option<[(Vec3, f32); 2]>,
     /// Least and greatest corner of all vertices at rest, character space; empty without a vertex.
     pub bounds: Option<(Vec3, Vec3)>,
 }
@@ -42,6 +46,8 @@ pub(crate) struct Part {
     pub material: usize,
     pub indices: std::ops::Range<u32>,
     pub center: Vec3,
+    /// Least and greatest corner at rest, character space.
+    pub bounds: (Vec3, Vec3),
     pub has_vertex_colors: bool,
     pub role: Role,
 }
@@ -128,6 +134,7 @@ impl Geometry {
             materials_by_id[*id as usize] = primitive.material;
         }
         geometry.part_materials = materials_by_id;
+        geometry.rig.eyes_and_hair = eyes_and_hair(scene, &geometry.parts);
         geometry.vertex_refs.push([0, geometry.morphs.len() as u32]);
         geometry
     }
@@ -179,6 +186,7 @@ impl Geometry {
             material: primitive.material,
             indices: start..self.indices.len() as u32,
             center: (low + high) * 0.5,
+            bounds: (low, high),
             has_vertex_colors: !primitive.colors.is_empty(),
             role: primitive.role,
         });
@@ -195,6 +203,19 @@ impl Geometry {
             weight_count: self.weight_count,
         }
     }
+}
+
+/// Spheres round eyes and hair, as far as those are seen through this.
+fn eyes_and_hair(scene: &Scene, parts: &[Part]) -> Option<[(Vec3, f32); 2]> {
+    scene.eyes_through?;
+    let sphere = |wanted: Mark| {
+        let marked = parts.iter().filter(|p| mark(p.role) == wanted);
+        let (low, high) = marked.map(|p| p.bounds).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))?;
+        // Hair swings.
+        let swing = if wanted == Mark::Hair { 0.1 } else { 0.0 };
+        low.cmple(high).all().then(|| ((low + high) * 0.5, (high - low).length() * 0.5 + swing))
+    };
+    Some([sphere(Mark::Eyes)?, sphere(Mark::Hair)?])
 }
 
 /// Reads sparse morph targets in vertex order.

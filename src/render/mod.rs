@@ -220,9 +220,9 @@ impl Renderer {
         self.bangs_near.as_ref().ok_or_else(|| Error::Gpu("the pass of nearest depths is missing".to_owned()))
     }
 
-    /// What draws the floor of benches.
-    pub(crate) fn floor(&self, stage: &Stage) -> Result<FloorPass> {
-        FloorPass::new(&self.variants, &Picture::new(self.gpu(), self.output, Sight::default()), stage)
+    /// What draws a character as the floor of benches.
+    pub(crate) fn floor(&self, of: &Character) -> Result<FloorPass> {
+        FloorPass::new(&self.variants, &Picture::new(self.gpu(), self.output, Sight::default()), of)
     }
 
     /// Renders a view of a stage and reads it back: sRGB, straight alpha, whatever the [`Output`]'s format.
@@ -306,7 +306,7 @@ impl Renderer {
         if with_maps {
             // What casts on faces, from the light of that shadow, and on everybody from the key light; only where a pose, the
             // light or a place has changed.
-            self.encode_maps(encoder, stage, clock);
+            self.encode_maps(encoder, stage, clock)?;
         }
         Ok(())
     }
@@ -360,7 +360,7 @@ impl Renderer {
         // Eyes and brows through the bangs.
         eyes_through::encode(pass, &actors, pipelines);
         // What is seen through, far before near.
-        let order = draw_list::transparent_order(actors.bodies, view.camera.eye);
+        let order = draw_list::transparent_order(&actors.bodies.list, view.camera.eye);
         transparent::encode(pass, &actors, pipelines, &order);
     }
 
@@ -399,58 +399,53 @@ impl Renderer {
             self.prepass_targets = Some((targets, group));
         }
         let picture = Picture::new(&gpu, self.output, shown.sight(stage));
-        stage.bodies.list.iter().map(|body| body.data().shown(&self.variants, &picture)).collect()
+        stage.bodies.troupes.iter().map(|troupe| troupe.data().shown(&self.variants, &picture)).collect()
     }
 
     fn encode_deform(&self, encoder: &mut wgpu::CommandEncoder, bodies: &mut Bodies, clock: &Clock) {
-        let stale: Vec<usize> = (0..bodies.list.len())
-            .filter(|i| {
-                let body = &mut bodies.list[*i];
-                let revision = body.pose_revision();
-                body.deformed.stale(revision).is_some()
-            })
-            .collect();
-        if !stale.is_empty() {
-            let moved = stale.iter().map(|i| &bodies.list[*i].deform);
-            self.deform.encode(encoder, moved, clock.compute(Timed::Deform));
+        if bodies.troupes.iter().any(|troupe| !troupe.moved.is_empty()) {
+            self.deform.encode(encoder, &mut bodies.troupes, clock.compute(Timed::Deform));
         }
     }
 
-    fn encode_maps(&self, encoder: &mut wgpu::CommandEncoder, stage: &mut Stage, clock: &Clock) {
-        let (to_light, time_s) = (stage.lights.directional.to_light, stage.time_s);
-        let mut stale = Vec::new();
-        for i in 0..stage.bodies.list.len() {
-            let body = &stage.bodies.list[i];
-            if body.bangs.is_none() && body.shadow_layer().is_none() {
-                continue;
-            }
-            let key = stage.bodies.maps_key(i, to_light, time_s);
-            if stage.bodies.list[i].maps.stale(key).is_some() {
-                stale.push(i);
-            }
-        }
-        let Some(actors) = actors(stage, &self.frame_group) else { return };
-        for (n, i) in stale.iter().enumerate() {
+    fn encode_maps(&self, encoder: &mut wgpu::CommandEncoder, stage: &mut Stage, clock: &Clock) -> Result<()> {
+        let stale = stage.bodies.stale_maps(stage.lights.directional.to_light, stage.time_s);
+        let Some(actors) = actors(stage, &self.frame_group) else { return Ok(()) };
+        let bodies = actors.bodies;
+        for (n, t) in stale.faces.iter().enumerate() {
             // The first one's time stands for all.
-            let clock = |timed| clock.render(timed).filter(|_| n == 0);
-            let of = &actors.bodies[*i];
-            if let (Some(map), Some(reduce)) = (&of.bangs, &self.bangs_near) {
-                let inputs = BangsShadowInputs { actors, reduce, map, of };
-                bangs_shadow::encode(encoder, &inputs, clock(Timed::BangsShadow));
-            }
-            if let (Some(map), Some(layer)) = (&stage.bodies.shadow, of.shadow_layer()) {
-                shadow::encode(encoder, &ShadowInputs { actors, map, layer, of }, clock(Timed::Shadow));
+            let clock = clock.render(Timed::BangsShadow).filter(|_| n == 0);
+            let of = &bodies.troupes[*t];
+            if let (Some(atlas), Some(reduce)) = (&of.bangs, &self.bangs_near) {
+                bangs_shadow::encode(encoder, &BangsShadowInputs { actors, reduce, atlas, of }, clock);
             }
         }
+        let Some(map) = &bodies.shadow else { return Ok(()) };
+        for (n, i) in stale.shadows.iter().enumerate() {
+            let clock = clock.render(Timed::Shadow).filter(|_| n == 0);
+            let body = &bodies.list[*i];
+            let Some(layer) = body.shadow_layer() else { continue };
+            let drawn = &|troupe: usize, draw: usize| bodies.troupes[troupe].data().picture()[draw].shadow.as_ref();
+            let casters = body.casters.iter().map(|&(troupe, at)| (troupe, at..at + 1));
+            shadow::encode(encoder, ShadowInputs { actors, map, layer, drawn }, casters, clock);
+        }
+        if let Some(layer) = bodies.world_map.layer.filter(|_| stale.world) {
+            let all = bodies.troupes.iter().map(|t| t.data().world_shadows(&self.variants));
+            let all = all.collect::<Result<Vec<_>>>()?;
+            let drawn = &|troupe: usize, draw: usize| all[troupe][draw].as_ref();
+            let casters = bodies.troupes.iter().map(|t| t.on_world.clone()).enumerate();
+            shadow::encode(encoder, ShadowInputs { actors, map, layer, drawn }, casters, None);
+        }
+        Ok(())
     }
 
     fn encode_prepass(&self, encoder: &mut wgpu::CommandEncoder, stage: &Stage, clock: &Clock) -> Result<()> {
         let Some(actors) = actors(stage, &self.frame_group).filter(|_| has_prepass(stage)) else { return Ok(()) };
         if let Some((targets, _)) = &self.prepass_targets {
             let surfaces = has_surfaces(stage);
-            let depths = |body: &crate::stage::body::Body| body.data().depths(&self.variants, surfaces);
-            let depths = actors.bodies.iter().map(depths).collect::<Result<Vec<_>>>()?;
-            let drawn = &|body: usize, draw: usize| depths[body][draw].as_ref();
+            let depths = actors.bodies.troupes.iter().map(|t| t.data().depths(&self.variants, surfaces));
+            let depths = depths.collect::<Result<Vec<_>>>()?;
+            let drawn = &|troupe: usize, draw: usize| depths[troupe][draw].as_ref();
             let inputs = PrepassInputs { actors, targets, surfaces, drawn };
             prepass::encode(encoder, inputs, clock.render(Timed::Prepass));
         }
@@ -586,9 +581,9 @@ impl Renderer {
         self.send_view(&mut encoder, stage, view);
         if let Some(actors) = actors(stage, &self.frame_group) {
             // Depth, normal and part id.
-            let all = actors.bodies.iter().map(|body| body.data().geometry(&self.variants));
+            let all = actors.bodies.troupes.iter().map(|t| t.data().geometry(&self.variants));
             let all = all.collect::<Result<Vec<_>>>()?;
-            let drawn = &|body: usize, draw: usize| all[body].get(draw);
+            let drawn = &|troupe: usize, draw: usize| all[troupe].get(draw);
             let inputs = PrepassInputs { actors, targets: &targets, surfaces: true, drawn };
             prepass::encode(&mut encoder, inputs, None);
         }
@@ -604,18 +599,18 @@ impl Renderer {
 
 /// What passes bind of a stage that is prepared.
 fn actors<'a>(stage: &'a Stage, frame: &'a wgpu::BindGroup) -> Option<Actors<'a>> {
-    let instances = &stage.bodies.crowd()?.instances;
-    Some(Actors { bodies: &stage.bodies.list, instances, frame })
+    let bodies = &stage.bodies;
+    Some(Actors { bodies, crowd: bodies.crowd.as_ref()?, frame })
 }
 
 /// Whether something on a stage reads the depth of the picture.
 fn has_prepass(stage: &Stage) -> bool {
-    stage.bodies.list.iter().any(|body| body.data().has_prepass)
+    stage.bodies.troupes.iter().any(|troupe| troupe.data().has_prepass)
 }
 
 /// Whether something on it reads normals and parts.
 fn has_surfaces(stage: &Stage) -> bool {
-    stage.bodies.list.iter().any(|body| body.data().has_inner_lines)
+    stage.bodies.troupes.iter().any(|troupe| troupe.data().has_inner_lines)
 }
 
 /// What a frame that is finished by [`PostPass`] is drawn into; settings that are numbers do not count.

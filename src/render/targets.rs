@@ -47,11 +47,17 @@ pub(crate) fn texture(
     })
 }
 
-/// Layers of a square map that passes draw one by one and shaders read together.
-pub(crate) fn layers(gpu: &Gpu, label: &str, side: u32, layers: u32, format: wgpu::TextureFormat) -> wgpu::TextureView {
+/// Layers of a map that passes draw one by one and shaders read together.
+pub(crate) fn layers(
+    gpu: &Gpu,
+    label: &str,
+    size: [u32; 2],
+    layers: u32,
+    format: wgpu::TextureFormat,
+) -> wgpu::TextureView {
     let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
         label: Some(label),
-        size: wgpu::Extent3d { width: side, height: side, depth_or_array_layers: layers },
+        size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: layers },
         mip_level_count: 1,
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,

@@ -8,7 +8,7 @@ use super::draw_list::{self, casts_on_face, through_order};
 use super::geometry::Geometry;
 use super::looks::{Looks, bound_textures, stride};
 use super::material::{self, Composition, Source};
-use super::pass::bangs_shadow::{self, BangsFit, BangsMap};
+use super::pass::bangs_shadow::{self, BangsAtlas, BangsFit};
 use super::pass::deform::{DeformBuffers, DeformSource};
 use super::pass::shadow::{self, ShadowFit, ShadowMap};
 use super::pass::{Picture, Sight};
@@ -18,8 +18,8 @@ use crate::material::{Encoding, MAX_SHELLS, Material, Surroundings, out_of_range
 use crate::motion::Driven;
 use crate::scene::{Image, Mesh, Primitive, Scene};
 use crate::sdf::FaceMap;
-use crate::stage::body::Body;
 use crate::stage::crowd::Crowd;
+use crate::stage::troupe::Troupe;
 use crate::{Error, Gpu, Result, Stage};
 
 impl Renderer {
@@ -151,6 +151,8 @@ impl Renderer {
             depths: Mutex::default(),
             geometry: OnceLock::new(),
             through_order: through_order(&draws),
+            has_blended: draws.iter().any(|draw| draw.blend),
+            world_shadows: OnceLock::new(),
             draws,
             bangs,
             shadow,
@@ -216,33 +218,38 @@ impl Renderer {
         Ok(())
     }
 
-    /// Buffers of a body.
-    pub(crate) fn deform_buffers(&self, source: &DeformSource) -> DeformBuffers {
-        self.deform.buffers(self.gpu(), source)
+    /// Slots that the buffers of a character's bodies may have.
+    pub(crate) fn deform_slots(&self, source: &DeformSource) -> usize {
+        source.most_slots(self.gpu())
     }
 
-    /// The map of the bangs' shadow of a body.
-    pub(crate) fn bangs_map(&self, fit: &BangsFit) -> Option<BangsMap> {
-        Some(BangsMap::new(self.gpu(), self.bangs_near.as_ref()?, *fit))
+    /// Buffers of so many bodies.
+    pub(crate) fn deform_buffers(&self, source: &DeformSource, slots: usize) -> DeformBuffers {
+        self.deform.buffers(self.gpu(), source, slots)
     }
 
-    /// Group 1 of a body, and the same while maps are drawn; where a map is missing, an empty one stands.
-    pub(crate) fn body_groups(&self, crowd: &Crowd, body: &Body, shadow: Option<&ShadowMap>) -> [wgpu::BindGroup; 2] {
+    /// The maps of the bangs' shadow of so many bodies.
+    pub(crate) fn bangs_atlas(&self, fit: &BangsFit, tiles: usize) -> Option<BangsAtlas> {
+        Some(BangsAtlas::new(self.gpu(), self.bangs_near.as_ref()?, fit, tiles))
+    }
+
+    /// Group 1 of a troupe, and the same while maps are drawn; where a map is missing, an empty one stands.
+    pub(crate) fn troupe_groups(&self, crowd: &Crowd, of: &Troupe, shadow: Option<&ShadowMap>) -> [wgpu::BindGroup; 2] {
         let EmptyMaps { bangs: no_bangs, shadow: no_shadow, gather, compare } = &self.empty_maps;
-        let group = |bangs: Option<&BangsMap>, shadow: Option<&ShadowMap>| {
+        let group = |bangs: Option<&BangsAtlas>, shadow: Option<&ShadowMap>| {
             let (map, near) = bangs.map_or((no_bangs, no_bangs), |b| (&b.view, &b.near));
             let resources = [
                 crowd.actors.as_entire_binding(),
-                body.deform.deformed.as_entire_binding(),
+                of.deform.deformed.as_entire_binding(),
                 wgpu::BindingResource::TextureView(map),
                 wgpu::BindingResource::TextureView(near),
                 wgpu::BindingResource::Sampler(gather),
                 wgpu::BindingResource::TextureView(shadow.map_or(no_shadow, |s| &s.view)),
                 wgpu::BindingResource::Sampler(compare),
             ];
-            bind::group(self.gpu(), "actor", &self.layouts.character, resources)
+            bind::group(self.gpu(), "actors", &self.layouts.character, resources)
         };
-        [group(body.bangs.as_ref(), shadow), group(None, None)]
+        [group(of.bangs.as_ref(), shadow), group(None, None)]
     }
 }
 

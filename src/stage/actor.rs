@@ -16,6 +16,9 @@ pub struct Actor {
     pub world: Mat4,
     /// How it is posed, and what of its materials has other numbers. Default: rest.
     pub pose: Pose,
+    /// Share of the key light that arrives at it, as a host finds it with shadows of its own. Received like any other shadow:
+    /// by materials with a [`CastShadow`](crate::material::CastShadow). Range 0..1. Default: 1.
+    pub key_light: f32,
     /// What tells it from others of its character.
     pub(crate) id: u64,
 }
@@ -28,7 +31,7 @@ impl Actor {
     pub fn new(character: &Character) -> Self {
         let pose = Pose::rest(character.scene());
         let id = NEXT.fetch_add(1, Ordering::Relaxed);
-        Self { character: character.clone(), world: Mat4::IDENTITY, pose, id }
+        Self { character: character.clone(), world: Mat4::IDENTITY, pose, key_light: 1.0, id }
     }
 
     /// The same at a place, metres, turned about the vertical axis: positive towards its left.

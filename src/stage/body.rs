@@ -1,32 +1,34 @@
-//! The bodies of a stage's actors on the GPU: pose, place, maps of shadows, and what of their materials has changed.
+//! The bodies of a stage's actors: pose, place, and what of their materials has changed; and what their maps are made from.
 
 use std::collections::HashMap;
-use std::ops::Range;
 
 use glam::{Mat4, Vec3};
 
 use super::crowd::Crowd;
+use super::troupe::Troupe;
 use super::{Actor, Stage};
-use crate::motion::Pose;
-use crate::render::draw_list::Draw;
 use crate::render::frame::ActorState;
 use crate::render::geometry::Palette;
 use crate::render::looks::Edits;
 use crate::render::made::Made;
-use crate::render::pass::bangs_shadow::BangsMap;
-use crate::render::pass::deform::DeformBuffers;
-use crate::render::pass::shadow::{ShadowMap, ShadowRows};
+use crate::render::pass::Mark;
+use crate::render::pass::shadow::{ShadowFit, ShadowMap, ShadowRows};
 use crate::render::uploads::Uploads;
 use crate::render::vertex::{AffineRows, Instance};
 use crate::render::{Character, CharacterData, Renderer};
+use crate::scene::{MOST_SHADOWED, SelfShadow};
 use crate::{Error, Gpu, Result};
 
 /// Bodies of all actors, in their order.
 #[derive(Debug, Default)]
 pub(crate) struct Bodies {
     pub list: Vec<Body>,
+    pub troupes: Vec<Troupe>,
     pub shadow: Option<ShadowMap>,
-    crowd: Option<Crowd>,
+    /// What the map of the whole stage is made from, and where it stands.
+    pub world_map: WorldMap,
+    pub crowd: Option<Crowd>,
+    scratch: Scratch,
 }
 
 /// The body of one actor.
@@ -35,88 +37,143 @@ pub(crate) struct Body {
     /// That of its actor.
     id: u64,
     pub character: Character,
-    /// Its number on the stage, and its instance.
-    pub index: u32,
-    /// What stands for the shells of its coat.
-    pub shells: Range<u32>,
-    /// What stands for the others that cast on it: their numbers and instances.
+    /// Its troupe, and its slot there.
+    pub troupe: usize,
+    slot: u32,
+    /// What stands for itself.
+    pub instance: u32,
+    /// What stands for itself and for others that cast on it, in its own shadow map: their troupes and instances.
     pub casters: Vec<(usize, u32)>,
     pub world: Mat4,
-    pub deform: DeformBuffers,
-    /// Group 1, and the same while maps of shadows are drawn.
-    pub groups: Option<[wgpu::BindGroup; 2]>,
-    pub bangs: Option<BangsMap>,
+    /// Share of the key light that arrives.
+    key_light: f32,
     shadow_layer: Option<u32>,
     /// Moves the head from its rest to the pose, and the hips.
     head: Mat4,
     hips: Mat4,
     edits: Edits,
-    /// How often the pose, and what is cut out of materials, have become others.
+    /// How often the pose, and what is cut out of materials, have become others; no pose has been taken at first.
     revisions: [u64; 2],
-    /// The pose whose joints and weights are on the GPU, and the one that its vertices are in.
-    sent: Made<u64, ()>,
-    pub deformed: Made<u64, ()>,
     pub maps: Made<MapsKey, ()>,
-    scratch: Scratch,
+}
+
+/// The shadow map of the whole stage.
+#[derive(Debug)]
+pub(crate) struct WorldMap {
+    pub layer: Option<u32>,
+    pub rows: ShadowRows,
+    /// What stands for those who cast, by troupe.
+    pub made: Made<MapsKey, ()>,
+}
+
+impl Default for WorldMap {
+    fn default() -> Self {
+        Self { layer: None, rows: ShadowRows::default(), made: Made::not_yet(()) }
+    }
 }
 
 /// What maps of shadows depend on.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct MapsKey {
     to_light: Vec3,
     /// Where it moves what is cut out.
     time_s: f32,
     shadow_layer: Option<u32>,
-    /// The frames in which the maps stand: bones may move that no vertex follows.
-    head: Mat4,
-    hips: Mat4,
-    /// Of what casts into them, itself first: actor, revisions, place.
-    cast: Vec<(u64, [u64; 2], Mat4)>,
+    /// Of what receives, then of what casts.
+    cast: Vec<Cast>,
 }
 
-/// Lists that every pose fills anew, kept so that an animated character allocates nothing.
+/// How something casts, and the frames in which maps stand: bones may move that no vertex follows.
+#[derive(Clone, Debug, PartialEq)]
+struct Cast {
+    id: u64,
+    revisions: [u64; 2],
+    world: Mat4,
+    head: Mat4,
+    hips: Mat4,
+}
+
+/// Lists that every frame fills anew, kept so that it allocates nothing.
 #[derive(Debug, Default)]
 struct Scratch {
     world: Vec<Mat4>,
     joints: Vec<AffineRows>,
     weights: Vec<f32>,
-    /// Those of the pose.
-    last_joints: Vec<AffineRows>,
-    last_weights: Vec<f32>,
+    spheres: Vec<Sphere>,
+    /// By body, where it has them: what the shadow on its face may come through, its eyes, its hair, their number.
+    faces: Vec<Option<FaceLight>>,
+    eyes: Vec<Option<[Sphere; 2]>>,
+    numbers: Vec<u32>,
+    near: Vec<(f32, usize)>,
+    order: Vec<usize>,
+    /// Troupes of what receives and of what casts, and the two themselves.
+    pairs: Vec<((usize, usize), usize, usize)>,
+}
+
+/// Something round, world space.
+#[derive(Clone, Copy, Debug, Default)]
+struct Sphere {
+    middle: Vec3,
+    radius: f32,
+}
+
+/// Where the light of the shadow on a face comes from: along a column.
+#[derive(Clone, Copy, Debug)]
+struct FaceLight {
+    head: Sphere,
+    to_light: Vec3,
 }
 
 /// Other actors that cast on one, at most.
 const MOST_CASTING: usize = 16;
-/// How far beyond its own size something may stand from a head and cast on it, metres.
-const REACH_M: f32 = 3.0;
+/// How far towards the light something may stand and cast, beyond sizes, metres.
+const REACH_M: f32 = 4.0;
+
+impl Sphere {
+    /// Whether something casts on it along a light: what stands towards it, within reach.
+    fn is_cast_on_by(self, other: Self, to_light: Vec3) -> bool {
+        let away = other.middle - self.middle;
+        let along = away.dot(to_light);
+        let reach = self.radius + other.radius;
+        along > -reach && along < reach + REACH_M && (away - to_light * along).length() < reach
+    }
+
+    fn meets(self, other: Self, window: f32) -> bool {
+        self.middle.distance(other.middle) < self.radius + other.radius + window
+    }
+
+    /// Moved with an actor.
+    fn moved(self, by: &Mat4) -> Self {
+        Self { middle: by.transform_point3(self.middle), radius: self.radius * by.x_axis.truncate().length() }
+    }
+}
 
 impl Stage {
     /// Makes the bodies those of the actors: new ones, vanished ones, poses, places, lists.
     pub(crate) fn embody(&mut self, renderer: &Renderer) -> Result<()> {
         self.check()?;
-        let Self { actors, bodies, .. } = self;
+        let Self { actors, bodies, lights, .. } = self;
         for (i, actor) in actors.iter().enumerate() {
             renderer.owns(&actor.character, i)?;
         }
         if !bodies.are_of(actors) {
-            let mut known: HashMap<u64, Body> = bodies.list.drain(..).map(|body| (body.id, body)).collect();
-            for actor in actors.iter() {
-                let body = known.remove(&actor.id).filter(|body| body.is_of(actor));
-                bodies.list.push(body.unwrap_or_else(|| Body::new(renderer, actor)));
-            }
+            bodies.arrange(renderer, actors);
         }
-        for (index, (actor, body)) in actors.iter().zip(&mut bodies.list).enumerate() {
-            body.index = index as u32;
+        let has_others = bodies.troupes.iter_mut().fold(false, |has, troupe| troupe.fit(renderer) | has);
+        let Bodies { list, troupes, scratch, .. } = bodies;
+        for (index, (actor, body)) in actors.iter().zip(&mut *list).enumerate() {
             body.world = actor.world;
+            body.key_light = actor.key_light;
             let fault = |e| match e {
                 Error::Argument { what, message } => {
                     Error::Argument { what: format!("actors[{index}].{what}"), message }
                 }
                 other => other,
             };
-            body.pose(&actor.pose).map_err(fault)?;
+            body.pose(&mut troupes[body.troupe], actor, scratch).map_err(fault)?;
         }
-        bodies.fit(renderer);
+        let to_light = lights.directional.to_light.normalize_or(Vec3::Z);
+        bodies.fit(renderer, has_others, to_light, self.focus, self.casts_on_world);
         Ok(())
     }
 }
@@ -127,112 +184,317 @@ impl Bodies {
         actors.len() == self.list.len() && actors.iter().zip(&self.list).all(|(actor, body)| body.is_of(actor))
     }
 
-    pub fn crowd(&self) -> Option<&Crowd> {
-        self.crowd.as_ref()
+    /// A body for each actor, with a slot in a troupe; those that are here keep theirs.
+    fn arrange(&mut self, renderer: &Renderer, actors: &[Actor]) {
+        let Self { list, troupes, .. } = self;
+        let mut known: HashMap<u64, Body> = list.drain(..).map(|body| (body.id, body)).collect();
+        let kept: Vec<Option<Body>> =
+            actors.iter().map(|a| known.remove(&a.id).filter(|body| body.is_of(a))).collect();
+        let stay: Vec<(usize, u32)> = kept.iter().flatten().map(|b| (b.troupe, b.slot)).collect();
+        for (t, troupe) in troupes.iter_mut().enumerate() {
+            troupe.keep_slots(|slot| stay.contains(&(t, slot)));
+        }
+        for (actor, kept) in actors.iter().zip(kept) {
+            let body = kept.unwrap_or_else(|| {
+                let found = troupes
+                    .iter_mut()
+                    .enumerate()
+                    .filter(|(_, troupe)| troupe.is_of(&actor.character))
+                    .find_map(|(t, troupe)| Some((t, troupe.take_slot()?)));
+                let (troupe, slot) = found.unwrap_or_else(|| {
+                    let mut troupe = Troupe::new(renderer, &actor.character);
+                    let slot = troupe.take_slot().unwrap_or_default();
+                    troupes.push(troupe);
+                    (troupes.len() - 1, slot)
+                });
+                Body::new(actor, troupe, slot)
+            });
+            list.push(body);
+        }
+        // Troupes that everybody has left go.
+        let mut count = 0;
+        let places: Vec<usize> = troupes
+            .iter()
+            .map(|troupe| {
+                let place = count;
+                count += usize::from(!troupe.is_empty());
+                place
+            })
+            .collect();
+        troupes.retain(|troupe| !troupe.is_empty());
+        list.iter_mut().for_each(|body| body.troupe = places[body.troupe]);
     }
 
     /// Fits maps and lists to the bodies.
-    fn fit(&mut self, renderer: &Renderer) {
-        let Self { list, shadow, crowd } = self;
+    fn fit(&mut self, renderer: &Renderer, has_others: bool, to_light: Vec3, focus: Option<Vec3>, on_world: bool) {
         let gpu = renderer.gpu();
+        let Self { list, scratch, .. } = self;
+        scratch.spheres.clear();
+        scratch.spheres.extend(list.iter().map(Body::sphere));
+        scratch.eyes.clear();
+        scratch.eyes.extend(list.iter().map(Body::eyes_and_hair));
+        scratch.faces.clear();
+        scratch.faces.extend(list.iter().map(|body| body.face_light(to_light)));
+        let has_other_maps = self.fit_maps(gpu, focus, on_world);
+        let Self { list, troupes, shadow, crowd, .. } = self;
         let crowd = crowd.get_or_insert_with(|| Crowd::new(gpu));
-        let fits: Vec<_> = list.iter().filter_map(|b| b.character.0.shadow.as_ref()).collect();
-        let has_other_maps = ShadowMap::fit(shadow, gpu, &fits);
-        let has_others = crowd.fit(gpu, list.len()) | has_other_maps;
-        let layers = shadow.as_ref().map_or(0, ShadowMap::layers);
-        let shadowed = list.iter_mut().filter(|b| b.character.0.shadow.is_some());
-        shadowed.enumerate().for_each(|(i, b)| b.shadow_layer = (i < layers).then_some(i as u32));
-        for body in list.iter_mut().filter(|b| has_others || b.groups.is_none()) {
-            body.groups = Some(renderer.body_groups(crowd, body, shadow.as_ref()));
-            if has_other_maps {
-                // What was in its layer is gone.
-                body.maps = Made::not_yet(());
+        // The stage itself comes last.
+        let has_others = crowd.fit(gpu, list.len() + 1) | has_other_maps | has_others;
+        for troupe in troupes.iter_mut().filter(|t| has_others || t.groups.is_none()) {
+            troupe.groups = Some(renderer.troupe_groups(crowd, troupe, shadow.as_ref()));
+        }
+        self.number_eyes();
+        self.fill_lists(to_light);
+    }
+
+    /// Who has a shadow map of its own, those nearest to `focus` first; whether there are other maps now.
+    fn fit_maps(&mut self, gpu: &Gpu, focus: Option<Vec3>, on_world: bool) -> bool {
+        let Self { list, shadow, world_map, scratch, .. } = self;
+        let Scratch { order, spheres, .. } = scratch;
+        order.clear();
+        order.extend((0..list.len()).filter(|i| list[*i].data().shadow.is_some()));
+        if let Some(focus) = focus {
+            order.sort_by(|a, b| {
+                let away = |i: &usize| spheres[*i].middle.distance_squared(focus);
+                away(a).total_cmp(&away(b))
+            });
+        }
+        let own = order.len().min(MOST_SHADOWED as usize);
+        let has_world = on_world || order.len() > own;
+        let side = order.iter().filter_map(|i| list[*i].data().shadow.as_ref()).map(|f| f.settings.side).max();
+        let side = side.unwrap_or(SelfShadow::default().side);
+        let wanted = own as u32 + u32::from(has_world);
+        let has_others = wanted > 0 && ShadowMap::fit(shadow, gpu, side, wanted);
+        let mut free = [true; MOST_SHADOWED as usize];
+        for i in 0..list.len() {
+            // Whoever keeps a map keeps its layer.
+            let keeps = list[i].shadow_layer.filter(|l| (*l as usize) < own && order[..own].contains(&i));
+            list[i].shadow_layer = keeps;
+            keeps.into_iter().for_each(|l| free[l as usize] = false);
+        }
+        for i in &order[..own] {
+            let next = free.iter().position(|f| *f).unwrap_or_default();
+            let layer = list[*i].shadow_layer.get_or_insert(next as u32);
+            free[*layer as usize] = false;
+        }
+        world_map.layer = shadow.as_ref().filter(|_| has_world).map(|s| s.layers() as u32 - 1);
+        if has_others {
+            // What was in the layers is gone.
+            list.iter_mut().for_each(|body| body.maps = Made::not_yet(()));
+            world_map.made = Made::not_yet(());
+        }
+        has_others
+    }
+
+    /// Gives those a number each whose eyes might be seen through the hair of another, and others the same one.
+    fn number_eyes(&mut self) {
+        let Self { list, scratch: Scratch { eyes, numbers, .. }, .. } = self;
+        numbers.clear();
+        for i in 0..list.len() {
+            let mut taken = 0u64;
+            if let Some([own_eyes, own_hair]) = eyes[i] {
+                let window = |b: usize| list[b].data().scene.eyes_through.map_or(0.0, |t| t.window_m);
+                for j in 0..i {
+                    let Some([other_eyes, other_hair]) = eyes[j] else { continue };
+                    if own_eyes.meets(other_hair, window(i)) || other_eyes.meets(own_hair, window(j)) {
+                        taken |= 1 << numbers[j];
+                    }
+                }
+            }
+            let free = taken.trailing_ones();
+            numbers.push(if free < Mark::NUMBERS { free } else { i as u32 % Mark::NUMBERS });
+        }
+    }
+
+    /// What stands for what in draws: actors by troupe, shells of coats, and what casts where.
+    fn fill_lists(&mut self, to_light: Vec3) {
+        let Self { list, troupes, crowd: Some(crowd), world_map, scratch, .. } = self else { return };
+        let Scratch { spheres, faces, numbers, near, order, pairs, .. } = scratch;
+        let entries = &mut crowd.list;
+        entries.clear();
+        let instance = |body: &Body, actor: usize, extra: usize| Instance {
+            world: body.world.into(),
+            actor: actor as u32,
+            first_vertex: body.slot * body.data().source.vertices(),
+            extra: extra as u32,
+        };
+        for (t, troupe) in troupes.iter_mut().enumerate() {
+            order.clear();
+            order.extend((0..list.len()).filter(|i| list[*i].troupe == t));
+            order.sort_by_key(|i| numbers[*i]);
+            let first = entries.len() as u32;
+            troupe.numbered.clear();
+            for &i in &*order {
+                let at = entries.len() as u32;
+                entries.push(instance(&list[i], i, i));
+                list[i].instance = at;
+                match troupe.numbered.last_mut() {
+                    Some((number, range)) if *number == numbers[i] => range.end = at + 1,
+                    _ => troupe.numbered.push((numbers[i], at..at + 1)),
+                }
+            }
+            troupe.instances = first..entries.len() as u32;
+            let first = entries.len() as u32;
+            for shell in 1..=troupe.data().shells {
+                entries.extend(order.iter().map(|i| instance(&list[*i], *i, shell as usize)));
+            }
+            troupe.shells = first..entries.len() as u32;
+            let first = entries.len() as u32;
+            if world_map.layer.is_some() {
+                entries.extend(order.iter().map(|i| instance(&list[*i], *i, list.len())));
+            }
+            troupe.on_world = first..entries.len() as u32;
+            troupe.face_casters.clear();
+        }
+        pairs.clear();
+        for i in 0..list.len() {
+            list[i].casters.clear();
+            if list[i].shadow_layer.is_some() {
+                let own = (list[i].troupe, entries.len() as u32);
+                list[i].casters.push(own);
+                entries.push(instance(&list[i], i, i));
+                casting(near, spheres, i, spheres[i], to_light);
+                for &(_, o) in near.iter().take(MOST_CASTING) {
+                    let caster = (list[o].troupe, entries.len() as u32);
+                    list[i].casters.push(caster);
+                    entries.push(instance(&list[o], o, i));
+                }
+            }
+            if let Some(face) = faces[i] {
+                casting(near, spheres, i, face.head, face.to_light);
+                pairs.extend(near.iter().take(MOST_CASTING).map(|&(_, o)| ((list[i].troupe, list[o].troupe), i, o)));
             }
         }
-        // The bodies themselves come first.
-        let places: Vec<AffineRows> = list.iter().map(|b| b.world.into()).collect();
-        let instance = |actor: u32, extra| Instance { world: places[actor as usize], actor, first_vertex: 0, extra };
-        crowd.list.clear();
-        crowd.list.extend((0..list.len() as u32).map(|i| instance(i, i)));
-        let spheres: Vec<(Vec3, f32)> = list.iter().map(Body::sphere).collect();
-        for i in 0..list.len() {
-            let body = &mut list[i];
-            let first = crowd.list.len() as u32;
-            crowd.list.extend((1..=body.character.0.shells).map(|shell| instance(body.index, shell)));
-            body.shells = first..crowd.list.len() as u32;
-            body.casters.clear();
-            if body.bangs.is_none() && body.shadow_layer.is_none() {
-                continue;
+        pairs.sort();
+        for &((of, by), i, o) in &*pairs {
+            let at = entries.len() as u32;
+            entries.push(instance(&list[o], o, i));
+            match troupes[of].face_casters.last_mut() {
+                Some((troupe, range)) if *troupe == by => range.end = at + 1,
+                _ => troupes[of].face_casters.push((by, at..at + 1)),
             }
-            let away = |o: usize| spheres[i].0.distance(spheres[o].0) - spheres[o].1;
-            let mut near: Vec<usize> =
-                (0..spheres.len()).filter(|o| *o != i && away(*o) < spheres[i].1 + REACH_M).collect();
-            near.sort_by(|a, b| away(*a).total_cmp(&away(*b)));
-            for o in near.into_iter().take(MOST_CASTING) {
-                body.casters.push((o, crowd.list.len() as u32));
-                crowd.list.push(instance(o as u32, i as u32));
-            }
+        }
+        world_map.rows = ShadowRows::default();
+        if let Some(layer) = world_map.layer
+            && let Some(shadow) = &self.shadow
+        {
+            world_map.rows = world_rows(list, spheres, shadow.side(), to_light);
+            world_map.rows.layer = Some(layer);
         }
     }
 
     /// Sends what has changed: poses, materials, and what depends on places and light.
     pub fn send(&mut self, gpu: &Gpu, uploads: &mut Uploads, encoder: &mut wgpu::CommandEncoder, to_light: Vec3) {
-        let Self { list, shadow, crowd } = self;
+        let Self { list, troupes, shadow, world_map, crowd, .. } = self;
+        for troupe in troupes.iter_mut() {
+            troupe.send(uploads, encoder);
+        }
         for body in list.iter_mut() {
-            if body.sent.stale(body.revisions[0]).is_some() {
-                let Scratch { last_joints, last_weights, .. } = &body.scratch;
-                uploads.write(encoder, &body.deform.joints, 0, bytemuck::cast_slice(last_joints));
-                uploads.write(encoder, &body.deform.weights, 0, bytemuck::cast_slice(last_weights));
-            }
             body.edits.send(gpu, &body.character.0.looks, uploads, encoder);
         }
         let side = shadow.as_ref().map_or(1, ShadowMap::side);
         if let Some(crowd) = crowd {
-            crowd.send(gpu, uploads, encoder, list.iter().map(|body| body.state(side, to_light)));
+            let states = list.iter().map(|body| body.state(troupes, side, to_light, world_map.rows));
+            let of_stage = ActorState::of_stage(world_map.rows);
+            crowd.send(gpu, uploads, encoder, states.chain([of_stage]));
         }
     }
 
-    /// What the maps of a body are made from.
-    pub fn maps_key(&self, body: usize, to_light: Vec3, time_s: f32) -> MapsKey {
-        let own = &self.list[body];
-        let casting = || std::iter::once(own).chain(own.casters.iter().map(|(o, _)| &self.list[*o]));
-        MapsKey {
-            to_light,
-            time_s: if casting().any(|b| b.character.0.cuts_move) {
-                time_s
-            } else {
-                0.0
-            },
-            shadow_layer: own.shadow_layer,
-            head: own.head,
-            hips: own.hips,
-            cast: casting().map(|b| (b.id, b.revisions, b.world)).collect(),
+    /// Bodies and troupes whose maps were made from something else.
+    pub fn stale_maps(&mut self, to_light: Vec3, time_s: f32) -> StaleMaps {
+        let Self { list, troupes, world_map, crowd, .. } = self;
+        let mut stale = StaleMaps::default();
+        let Some(crowd) = crowd else { return stale };
+        let actor = |at: u32| crowd.list[at as usize].actor as usize;
+        let key = |shadow_layer, bodies: &mut dyn Iterator<Item = usize>, list: &[Body]| {
+            let mut key = MapsKey { to_light, time_s: 0.0, shadow_layer, cast: Vec::new() };
+            for body in bodies.map(|i| &list[i]) {
+                if body.data().cuts_move {
+                    key.time_s = time_s;
+                }
+                let Body { id, revisions, world, head, hips, .. } = *body;
+                key.cast.push(Cast { id, revisions, world, head, hips });
+            }
+            key
+        };
+        for i in 0..list.len() {
+            let Some(layer) = list[i].shadow_layer else { continue };
+            let key = key(Some(layer), &mut list[i].casters.iter().map(|(_, at)| actor(*at)), list);
+            if list[i].maps.stale(key).is_some() {
+                stale.shadows.push(i);
+            }
         }
+        for t in 0..troupes.len() {
+            let troupe = &mut troupes[t];
+            if troupe.bangs.is_none() {
+                continue;
+            }
+            let casters = troupe.face_casters.iter().flat_map(|(_, range)| range.clone());
+            let key = key(None, &mut troupe.instances.clone().chain(casters).map(actor), list);
+            if troupe.maps.stale(key).is_some() {
+                stale.faces.push(t);
+            }
+        }
+        if world_map.layer.is_some() {
+            let key = key(world_map.layer, &mut (0..list.len()), list);
+            stale.world = world_map.made.stale(key).is_some();
+        }
+        stale
     }
 }
 
+/// Maps that must be drawn.
+#[derive(Debug, Default)]
+pub(crate) struct StaleMaps {
+    /// Bodies with shadow maps of their own.
+    pub shadows: Vec<usize>,
+    /// Troupes with shadows on faces.
+    pub faces: Vec<usize>,
+    /// That of the whole stage.
+    pub world: bool,
+}
+
+/// Finds what casts on something of a body, the nearest first.
+fn casting(near: &mut Vec<(f32, usize)>, spheres: &[Sphere], of: usize, on: Sphere, to_light: Vec3) {
+    near.clear();
+    let others = spheres.iter().enumerate().filter(|(o, sphere)| *o != of && on.is_cast_on_by(**sphere, to_light));
+    near.extend(others.map(|(o, sphere)| (on.middle.distance(sphere.middle) - sphere.radius, o)));
+    near.sort_by(|a, b| a.0.total_cmp(&b.0));
+}
+
+/// The map that holds everybody.
+fn world_rows(list: &[Body], spheres: &[Sphere], side: u32, to_light: Vec3) -> ShadowRows {
+    let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+    for sphere in spheres.iter().filter(|s| s.radius > 0.0) {
+        (low, high) = (low.min(sphere.middle - sphere.radius), high.max(sphere.middle + sphere.radius));
+    }
+    if !low.cmple(high).all() {
+        return ShadowRows::default();
+    }
+    let middle = (low + high) * 0.5;
+    let away = |s: &Sphere| middle.distance(s.middle) + s.radius;
+    let radius = spheres.iter().filter(|s| s.radius > 0.0).map(away).fold(0.0, f32::max);
+    let settings = list.iter().find_map(|b| Some(b.data().shadow.as_ref()?.settings)).unwrap_or_default();
+    ShadowFit { settings, middle, radius }.rows(side, middle, 1.0, to_light)
+}
+
 impl Body {
-    fn new(renderer: &Renderer, actor: &Actor) -> Self {
-        let data = &actor.character.0;
+    fn new(actor: &Actor, troupe: usize, slot: u32) -> Self {
         Self {
             id: actor.id,
-            index: 0,
-            shells: 0..0,
+            character: actor.character.clone(),
+            troupe,
+            slot,
+            instance: 0,
             casters: Vec::new(),
             world: actor.world,
-            deform: renderer.deform_buffers(&data.source),
-            groups: None,
-            bangs: data.bangs.as_ref().and_then(|fit| renderer.bangs_map(fit)),
+            key_light: actor.key_light,
             shadow_layer: None,
             head: Mat4::IDENTITY,
             hips: Mat4::IDENTITY,
             edits: Edits::default(),
             revisions: [0; 2],
-            sent: Made::not_yet(()),
-            deformed: Made::not_yet(()),
             maps: Made::not_yet(()),
-            scratch: Scratch::default(),
-            character: actor.character.clone(),
         }
     }
 
@@ -257,26 +519,17 @@ impl Body {
         &mut self.edits
     }
 
-    /// Layer of its shadow map.
+    /// Layer of its own shadow map.
     pub fn shadow_layer(&self) -> Option<u32> {
         self.shadow_layer
     }
 
-    /// What its deformed vertices are made from.
-    pub fn pose_revision(&self) -> u64 {
-        self.revisions[0]
-    }
-
-    /// Instance of itself.
-    pub fn instance(&self) -> Range<u32> {
-        self.index..self.index + 1
-    }
-
-    /// Takes a pose.
-    fn pose(&mut self, pose: &Pose) -> Result<()> {
+    /// Takes the pose of an actor.
+    fn pose(&mut self, troupe: &mut Troupe, actor: &Actor, scratch: &mut Scratch) -> Result<()> {
         let CharacterData { scene, rig, looks, .. } = &*self.character.0;
+        let pose = &actor.pose;
         pose.check(scene)?;
-        let Scratch { world, joints, weights, .. } = &mut self.scratch;
+        let Scratch { world, joints, weights, .. } = scratch;
         scene.world_from_nodes_into(&pose.locals, world);
         let matrix = |node: usize| world.get(node).copied().unwrap_or(Mat4::IDENTITY);
         joints.clear();
@@ -295,10 +548,7 @@ impl Body {
         }
         let moved = |bone: Option<(usize, Mat4)>| bone.map_or(Mat4::IDENTITY, |(node, inverse)| matrix(node) * inverse);
         (self.head, self.hips) = (moved(rig.head), moved(rig.hips));
-        let Scratch { joints, weights, last_joints, last_weights, .. } = &mut self.scratch;
-        if joints != last_joints || weights != last_weights {
-            last_joints.clone_from(joints);
-            last_weights.clone_from(weights);
+        if troupe.pose(self.slot, joints, weights, self.revisions[0] == 0) {
             self.revisions[0] += 1;
         }
         if self.edits.pose(looks, pose) {
@@ -308,33 +558,55 @@ impl Body {
     }
 
     /// A sphere round it in the world.
-    fn sphere(&self) -> (Vec3, f32) {
-        let (low, high) = self.character.0.rig.bounds.unwrap_or_default();
-        let middle = self.world.transform_point3(self.hips.transform_point3((low + high) * 0.5));
-        (middle, (high - low).length() * 0.5 * self.world.x_axis.truncate().length())
+    fn sphere(&self) -> Sphere {
+        let Some((low, high)) = self.data().rig.bounds else { return Sphere::default() };
+        let at_rest = Sphere { middle: (low + high) * 0.5, radius: (high - low).length() * 0.5 };
+        Sphere { middle: self.hips.transform_point3(at_rest.middle), ..at_rest }.moved(&self.world)
     }
 
-    fn state(&self, shadow_side: u32, to_light: Vec3) -> ActorState<'_> {
+    /// Spheres round its eyes and its hair in the world, where the ones are seen through the other.
+    fn eyes_and_hair(&self) -> Option<[Sphere; 2]> {
+        let spheres = self.data().rig.eyes_and_hair?;
+        Some(spheres.map(|(middle, radius)| {
+            Sphere { middle: self.head.transform_point3(middle), radius }.moved(&self.world)
+        }))
+    }
+
+    /// Where the light of the shadow on its face comes from.
+    fn face_light(&self, to_light: Vec3) -> Option<FaceLight> {
+        let fit = self.data().bangs.as_ref()?;
+        let of_character = self.world.inverse().transform_vector3(to_light).normalize_or(Vec3::Z);
+        let direction = fit.to_light(self.head, of_character);
+        let head = Sphere { middle: self.head.transform_point3(fit.middle), radius: fit.half * std::f32::consts::SQRT_2 };
+        let to_light = self.world.transform_vector3(direction).normalize_or(to_light);
+        Some(FaceLight { head: head.moved(&self.world), to_light })
+    }
+
+    fn state<'a>(
+        &'a self,
+        troupes: &'a [Troupe],
+        shadow_side: u32,
+        to_light: Vec3,
+        of_world: ShadowRows,
+    ) -> ActorState<'a> {
         let data = self.data();
         let from_world = self.world.inverse();
-        let shadow = data.shadow.as_ref().map_or_else(ShadowRows::default, |fit| {
+        let own = |layer: u32| {
+            let fit = data.shadow.as_ref()?;
             let middle = self.world.transform_point3(self.hips.transform_point3(fit.middle));
-            fit.rows(shadow_side, middle, self.world.x_axis.truncate().length(), to_light)
-        });
+            let rows = fit.rows(shadow_side, middle, self.world.x_axis.truncate().length(), to_light);
+            Some(ShadowRows { layer: Some(layer), ..rows })
+        };
         ActorState {
-            shadow_layer: self.shadow_layer,
             head: self.head,
             head_middle: data.rig.head_middle,
-            bangs: self.bangs.as_ref(),
+            bangs: data.bangs.as_ref(),
+            tile: troupes[self.troupe].bangs.as_ref().map(|atlas| atlas.place(self.slot)).unwrap_or_default(),
             through: data.scene.eyes_through,
             to_light: from_world.transform_vector3(to_light).normalize_or(Vec3::Z),
             from_world,
-            shadow,
+            shadow: self.shadow_layer.and_then(own).unwrap_or(of_world),
+            key_light: self.key_light,
         }
-    }
-
-    /// Draws that are not blended.
-    pub fn solid_draws(&self) -> impl Iterator<Item = (usize, &Draw)> {
-        self.character.0.draws.iter().enumerate().filter(|(_, draw)| !draw.blend)
     }
 }

@@ -12,9 +12,11 @@ use crate::render::vertex::Instance;
 pub(crate) struct Crowd {
     numbers: Filled,
     bytes: Vec<u8>,
+    /// Bytes that are in the buffer.
+    sent: Vec<u8>,
     pub actors: wgpu::Buffer,
     pub instances: wgpu::Buffer,
-    /// What stands for what in draws; the first ones are the actors themselves.
+    /// What stands for what in draws.
     pub list: Vec<Instance>,
     /// What is in the buffer.
     listed: Vec<Instance>,
@@ -28,6 +30,7 @@ impl Crowd {
             instances: instances(gpu, 1),
             numbers,
             bytes: Vec::new(),
+            sent: Vec::new(),
             list: Vec::new(),
             listed: Vec::new(),
         }
@@ -38,6 +41,7 @@ impl Crowd {
         let has_grown = count as u64 * self.numbers.size() > self.actors.size();
         if has_grown {
             self.actors = actors(gpu, &self.numbers, count.next_power_of_two());
+            self.sent.clear();
         }
         has_grown
     }
@@ -62,7 +66,10 @@ impl Crowd {
         for state in states {
             self.bytes.extend_from_slice(self.numbers.fill(|numbers| put_actor(numbers, &state)));
         }
-        uploads.write(encoder, &self.actors, 0, &self.bytes);
+        if self.bytes != self.sent {
+            uploads.write(encoder, &self.actors, 0, &self.bytes);
+            self.sent.clone_from(&self.bytes);
+        }
     }
 }
 

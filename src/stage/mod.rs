@@ -3,10 +3,11 @@
 mod actor;
 pub(crate) mod body;
 pub(crate) mod crowd;
+pub(crate) mod troupe;
 
 pub use actor::Actor;
 
-use glam::Mat4;
+use glam::{Mat4, Vec3};
 
 use crate::scene::{Lights, Post};
 use crate::{Error, Result};
@@ -24,6 +25,12 @@ pub struct Stage {
     pub time_s: f32,
     /// What is done to the whole picture. Default: what the first actor's scene says.
     pub post: Option<Post>,
+    /// Where shadows matter most, world space: as many actors as there may be
+    /// ([`MOST_SHADOWED`](crate::scene::MOST_SHADOWED)) have a shadow map of their own, those nearest to it first; the rest
+    /// share one. Default: `None`, in their order.
+    pub focus: Option<Vec3>,
+    /// Draws what all actors cast into one map, for the shaders of a host. Default: false.
+    pub casts_on_world: bool,
     pub(crate) bodies: Bodies,
 }
 

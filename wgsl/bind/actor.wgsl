@@ -17,6 +17,13 @@ struct Actor {
     // Per unit of depth, and in units of depth.
     bangs_hardness: f32,
     bangs_bias: f32,
+    // Share of the key light that arrives at it.
+    key_light: f32,
+    // Texels along the tile of its map.
+    bangs_side: f32,
+    // First texel of that, and scale and offset from 0..1 of it to 0..1 of all.
+    bangs_origin: vec2f,
+    bangs_place: vec4f,
     // Eyes through hair: opacity, metres, cosines between which it fades.
     through_opacity: f32,
     through_window: f32,

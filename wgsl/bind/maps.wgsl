@@ -15,6 +15,12 @@ import package::lib::shadow::{shadow_edge, shadow_place};
 const BANGS_LAYER: i32 = 0;
 const LIDS_LAYER: i32 = 1;
 
+// The same place in the map of all heads.
+fn bangs_in_atlas(actor: u32, at: vec2f) -> vec2f {
+    let place = actors[actor].bangs_place;
+    return at * place.xy + place.zw;
+}
+
 // Place of a point of an actor, character space, in the map of its own bangs.
 fn bangs_from_character(actor: u32, position: vec3f) -> vec3f {
     let a = &actors[actor];
@@ -47,7 +53,7 @@ fn shadow_receiver(v: Vertex, position: vec3f, normal: vec3f) -> vec4f {
     return vec4f(at + by * a.shadow_bias, a.shadow_layer);
 }
 
-// Share of light that arrives there. What lies beyond the map is lit, and so is what the caller does not need (`wanted`).
+// Share of the key light that arrives there. What lies beyond the map is lit, and so is what the caller does not need (`wanted`).
 fn shadow_lit(actor: u32, at: vec4f, wanted: bool) -> f32 {
     let layer = i32(round(at.w));
     let spread = actors[actor].shadow_spread;
@@ -71,7 +77,7 @@ fn shadow_lit(actor: u32, at: vec4f, wanted: bool) -> f32 {
             shadow_map, shadow_sampler, at.xy + offset * spread, layer, at.z
         );
     }
-    return shadow_edge(lit / select(9.0, 4.0, agree));
+    return min(shadow_edge(lit / select(9.0, 4.0, agree)), actors[actor].key_light);
 }
 
 // Share of light that a layer lets through to a place of the map. What lies beyond its border is lit, and so is what the
@@ -79,23 +85,26 @@ fn shadow_lit(actor: u32, at: vec4f, wanted: bool) -> f32 {
 fn bangs_lit(actor: u32, at: vec3f, layer: i32, wanted: bool) -> f32 {
     let hardness = actors[actor].bangs_hardness;
     let bias = actors[actor].bangs_bias;
-    let side = i32(textureDimensions(bangs_map).x);
-    let block = clamp(vec2i(at.xy * f32(side)) / BANGS_BLOCK, vec2i(0), vec2i(textureDimensions(bangs_near)) - 1);
+    let side = actors[actor].bangs_side;
+    let origin = vec2i(actors[actor].bangs_origin);
+    let last_block = vec2i(i32(side) - 1) / BANGS_BLOCK;
+    let block = origin / BANGS_BLOCK + clamp(vec2i(at.xy * side) / BANGS_BLOCK, vec2i(0), last_block);
     let nearest = textureLoad(bangs_near, block, layer, 0).r;
     let is_outside = any(at.xy <= vec2f(0.0)) || any(at.xy >= vec2f(1.0));
     // Where nothing hangs before it every tap would let all light through. A count of 0 rather than a branch: software
     // rasterizers walk both sides of branches, but leave loops early.
     let is_lit = is_outside || nearest + bias >= at.z;
     let taps = select(BANGS_TAPS * BANGS_TAPS / 4, 0, is_lit || !wanted);
-    let p = at.xy * f32(side) - 0.5;
-    let first = vec2i(floor(p)) - 1;
+    let p = at.xy * side - 0.5;
+    let first = vec2i(floor(p)) - 1 + origin;
+    let size = vec2f(textureDimensions(bangs_map));
     let f = fract(p);
     var lit = select(0.0, 1.0, taps == 0);
     for (var i = 0; i < taps; i++) {
         // Four texels about a corner: (0, 1), (1, 1), (1, 0), (0, 0). Those at the border stand for what lies beyond.
         let x = i % (BANGS_TAPS / 2) * 2;
         let y = i / (BANGS_TAPS / 2) * 2;
-        let corner = (vec2f(first + vec2i(x, y)) + 1.0) / f32(side);
+        let corner = (vec2f(first + vec2i(x, y)) + 1.0) / size;
         let depth = textureGather(0, bangs_map, bangs_sampler, corner, layer);
         let tap = esm_taps(depth, at.z, hardness, bias);
         let across = vec2f(bangs_weight(x, f.x), bangs_weight(x + 1, f.x));

@@ -33,6 +33,14 @@ struct Joint {
     row_z: vec4f,
 }
 
+// What is deformed: of each body its slot in the buffers of many.
+struct Moved {
+    // Joints and weights of a body.
+    joints: u32,
+    weights: u32,
+    slots: array<vec4u, 256>,
+}
+
 @group(0) @binding(0) var<storage, read> groups: array<DeformGroup>;
 @group(0) @binding(1) var<storage, read> source: array<DeformVertex>;
 // For each vertex: its group, its first morph entry; one more pair closes the list.
@@ -43,6 +51,7 @@ struct Joint {
 @group(0) @binding(5) var<storage, read> joints: array<Joint>;
 @group(0) @binding(6) var<storage, read> morph_weights: array<f32>;
 @group(0) @binding(7) var<storage, read_write> deformed: array<DeformVertex>;
+@group(0) @binding(8) var<uniform> moved: Moved;
 
 fn pack_unit(n: vec3f) -> u32 {
     return pack2x16snorm(octahedral_from_unit(n));
@@ -55,9 +64,11 @@ fn unpack_unit(packed: u32) -> vec3f {
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3u) {
     let index = id.x + id.y * 65535u * 64u;
-    if index >= arrayLength(&source) {
+    let vertices = arrayLength(&source);
+    if index >= vertices {
         return;
     }
+    let slot = moved.slots[id.z / 4u][id.z % 4u];
     let vertex = source[index];
     let reference = vertex_refs[index];
     let part = groups[reference.x];
@@ -68,7 +79,7 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
     let tangent = unpack_unit(vertex.tangent);
 
     for (var i = reference.y; i < vertex_refs[index + 1u].y; i++) {
-        let weight = morph_weights[part.first_weight + morph_entries[i].target_index];
+        let weight = morph_weights[slot * moved.weights + part.first_weight + morph_entries[i].target_index];
         if weight != 0.0 {
             let entry = morph_entries[i];
             position += weight * vec3f(entry.dx, entry.dy, entry.dz);
@@ -78,9 +89,10 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
         }
     }
 
-    var row_x = joints[part.first_joint].row_x;
-    var row_y = joints[part.first_joint].row_y;
-    var row_z = joints[part.first_joint].row_z;
+    let first_joint = slot * moved.joints + part.first_joint;
+    var row_x = joints[first_joint].row_x;
+    var row_y = joints[first_joint].row_y;
+    var row_z = joints[first_joint].row_z;
     if part.influences_per_vertex > 0u {
         row_x = vec4f(0.0);
         row_y = vec4f(0.0);
@@ -93,7 +105,7 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
             if weight == 0.0 {
                 break;
             }
-            let joint = joints[part.first_joint + (influence & 0xffffu)];
+            let joint = joints[first_joint + (influence & 0xffffu)];
             row_x += weight * joint.row_x;
             row_y += weight * joint.row_y;
             row_z += weight * joint.row_z;
@@ -113,7 +125,7 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
     let turned_tangent = vec3f(dot(row_x.xyz, tangent), dot(row_y.xyz, tangent), dot(row_z.xyz, tangent));
 
     let handedness = (vertex.tangent & 1u) ^ select(1u, 0u, side > 0.0);
-    deformed[index] = DeformVertex(
+    deformed[slot * vertices + index] = DeformVertex(
         moved.x,
         moved.y,
         moved.z,

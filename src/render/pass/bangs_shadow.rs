@@ -5,12 +5,13 @@ use glam::{Mat4, Vec3, Vec4};
 use super::bangs_near::{self, BangsNearInputs, BangsNearPass};
 use super::{DEPTH_FORMAT, map_request};
 use crate::Gpu;
-use crate::render::draw_list::{self, Actors, Draw};
+use crate::gpu::MAX_TEXTURE_SIDE;
+use crate::render::draw_list::{Actors, Draw};
 use crate::render::material::Composition;
 use crate::render::targets;
 use crate::render::variants::Request;
 use crate::scene::Bangs;
-use crate::stage::body::Body;
+use crate::stage::troupe::Troupe;
 
 /// Depth of the nearest hair, 0..1 over the range.
 pub(crate) const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R32Float;
@@ -26,19 +27,33 @@ pub(crate) struct BangsFit {
     pub lids: bool,
 }
 
-/// The map of one actor and the camera that draws it.
+/// The maps of several actors of a character: a tile for each.
 #[derive(Debug)]
-pub(crate) struct BangsMap {
-    fit: BangsFit,
-    /// The map as shaders read it: what casts on the face, then lids and lashes where something receives their shadow.
+pub(crate) struct BangsAtlas {
+    /// Texels along a tile, and between two.
+    side: u32,
+    stride: u32,
+    columns: u32,
+    tiles: usize,
+    /// The maps as shaders read them: what casts on the face, then lids and lashes where something receives their shadow.
     pub view: wgpu::TextureView,
-    /// Nearest depths of its blocks.
+    /// Nearest depths of their blocks.
     pub near: wgpu::TextureView,
     layers: Vec<Layer>,
     depth: wgpu::TextureView,
 }
 
-/// One layer of the map as passes draw it.
+/// Where the tile of an actor lies.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct BangsTile {
+    /// First texel, and texels along a side.
+    pub origin: [f32; 2],
+    pub side: f32,
+    /// What takes 0..1 of the tile to 0..1 of the atlas: scale and offset.
+    pub place: [f32; 4],
+}
+
+/// One layer of the maps as passes draw them.
 #[derive(Debug)]
 struct Layer {
     map: wgpu::TextureView,
@@ -46,47 +61,56 @@ struct Layer {
     near_input: wgpu::BindGroup,
 }
 
-/// What the pass reads and writes: the map of a body.
+/// What the pass reads and writes: the maps of a troupe.
 pub(crate) struct BangsShadowInputs<'a> {
     pub actors: Actors<'a>,
     pub reduce: &'a BangsNearPass,
-    pub map: &'a BangsMap,
-    pub of: &'a Body,
+    pub atlas: &'a BangsAtlas,
+    pub of: &'a Troupe,
 }
 
-impl BangsMap {
-    /// A map for a head of this place and size. A texel is a third of the soft edge; the shader's box is three wide.
-    pub fn new(gpu: &Gpu, reduce: &BangsNearPass, fit: BangsFit) -> Self {
-        let BangsFit { bangs, half, lids, .. } = fit;
-        let texel = bangs.soft_width_m / 3.0;
-        let side = ((2.0 * half / texel).ceil() as u32).clamp(32, 1024);
-        let count = if lids { 2 } else { 1 };
-        let view = map_texture(gpu, side, count);
-        let near = map_texture(gpu, side.div_ceil(bangs_near::BLOCK), count);
-        let layers = (0..count)
-            .map(|i| {
-                let map = targets::layer(&view, i);
-                Layer { near_input: reduce.group(gpu, &map), map, near: targets::layer(&near, i) }
-            })
-            .collect();
-        Self { fit, layers, near, view, depth: targets::layers(gpu, "bangs depth", side, 1, DEPTH_FORMAT) }
+impl BangsFit {
+    /// Texels along a side: one is a third of the soft edge; the shader's box is three wide.
+    fn side(&self) -> u32 {
+        let texel = self.bangs.soft_width_m / 3.0;
+        ((2.0 * self.half / texel).ceil() as u32).clamp(32, 1024)
     }
 
-    /// Rows of the map from character space. `head` moves the head from its rest; `to_light` is in character space.
-    pub fn rows(&self, head: Mat4, to_light: Vec3) -> [Vec4; 3] {
-        let turned = |axis: Vec3| head.transform_vector3(axis).normalize_or(axis);
-        let (left, up, forward) = (turned(Vec3::X), turned(Vec3::Y), turned(Vec3::Z));
-        let [yaw, pitch] = self.fit.bangs.direction_rad.unwrap_or_else(|| {
+    /// Texels from one tile to the next: whole blocks, two at least between tiles.
+    fn stride(&self) -> u32 {
+        (self.side() + 2).next_multiple_of(bangs_near::BLOCK)
+    }
+
+    /// Tiles that an atlas may have.
+    pub fn most_tiles(&self) -> usize {
+        (MAX_TEXTURE_SIDE / self.stride()).pow(2) as usize
+    }
+
+    /// Axes of the head in the pose: left, up, forward. `head` moves it from its rest.
+    fn axes(head: Mat4) -> [Vec3; 3] {
+        [Vec3::X, Vec3::Y, Vec3::Z].map(|axis| head.transform_vector3(axis).normalize_or(axis))
+    }
+
+    /// Where the light of the shadow stands, character space; `to_light` is the key light.
+    pub fn to_light(&self, head: Mat4, to_light: Vec3) -> Vec3 {
+        let [left, up, forward] = Self::axes(head);
+        let [yaw, pitch] = self.bangs.direction_rad.unwrap_or_else(|| {
             let light = to_light.normalize_or(forward);
             let (x, y, z) = (light.dot(left), light.dot(up), light.dot(forward));
             let held = |angle: f32, low: f32, high: f32| angle.clamp(low.to_radians(), high.to_radians());
             [held(x.atan2(z), -35.0, 35.0), held(y.clamp(-1.0, 1.0).asin(), 10.0, 40.0)]
         });
-        let direction = left * (yaw.sin() * pitch.cos()) + up * pitch.sin() + forward * (yaw.cos() * pitch.cos());
+        left * (yaw.sin() * pitch.cos()) + up * pitch.sin() + forward * (yaw.cos() * pitch.cos())
+    }
+
+    /// Rows of the map from character space.
+    pub fn rows(&self, head: Mat4, to_light: Vec3) -> [Vec4; 3] {
+        let [left, up, _] = Self::axes(head);
+        let direction = self.to_light(head, to_light);
         let right = up.cross(direction).normalize_or(left);
         let top = direction.cross(right);
-        let middle = head.transform_point3(self.fit.middle);
-        let width = 2.0 * self.fit.half;
+        let middle = head.transform_point3(self.middle);
+        let width = 2.0 * self.half;
         let row = |axis: Vec3, scale: f32| (axis * scale).extend(0.5 - axis.dot(middle) * scale);
         // The camera stands one width before the middle; its range is twice its width.
         [row(right, 1.0 / width), row(top, -1.0 / width), row(direction, -0.5 / width)]
@@ -94,28 +118,64 @@ impl BangsMap {
 
     /// Hardness and bias, per unit of depth and in units of depth.
     pub fn test(&self) -> [f32; 2] {
-        [self.fit.bangs.hardness, self.fit.bangs.bias_m / (4.0 * self.fit.half)]
+        [self.bangs.hardness, self.bangs.bias_m / (4.0 * self.half)]
     }
 }
 
-/// A map without hair, for characters that have none; [`BangsMap`] makes those that are drawn.
+impl BangsAtlas {
+    /// Room for the maps of so many heads.
+    pub fn new(gpu: &Gpu, reduce: &BangsNearPass, fit: &BangsFit, tiles: usize) -> Self {
+        let (side, stride) = (fit.side(), fit.stride());
+        let columns = ((tiles as f64).sqrt().ceil() as u32).clamp(1, MAX_TEXTURE_SIDE / stride);
+        let rows = (tiles as u32).div_ceil(columns).max(1);
+        // Of a single tile, its border is that of the texture.
+        let size = [columns, rows].map(|n| (n - 1) * stride + side);
+        let count = if fit.lids { 2 } else { 1 };
+        let view = targets::layers(gpu, "bangs", size, count, FORMAT);
+        let near = targets::layers(gpu, "bangs near", size.map(|s| s.div_ceil(bangs_near::BLOCK)), count, FORMAT);
+        let layers = (0..count)
+            .map(|i| {
+                let map = targets::layer(&view, i);
+                Layer { near_input: reduce.group(gpu, &map), map, near: targets::layer(&near, i) }
+            })
+            .collect();
+        let depth = targets::layers(gpu, "bangs depth", size, 1, DEPTH_FORMAT);
+        Self { side, stride, columns, tiles, layers, near, view, depth }
+    }
+
+    /// How many tiles it has room for.
+    pub fn tiles(&self) -> usize {
+        self.tiles
+    }
+
+    /// Where the tile of a slot lies.
+    pub fn place(&self, slot: u32) -> BangsTile {
+        let texture = self.view.texture();
+        let size = [texture.width(), texture.height()].map(|s| s as f32);
+        let origin = [slot % self.columns, slot / self.columns].map(|n| (n * self.stride) as f32);
+        let side = self.side as f32;
+        BangsTile { origin, side, place: [side / size[0], side / size[1], origin[0] / size[0], origin[1] / size[1]] }
+    }
+}
+
+/// A map without hair, for characters that have none; [`BangsAtlas`] makes those that are drawn.
 pub(crate) fn map_texture(gpu: &Gpu, side: u32, layers: u32) -> wgpu::TextureView {
-    targets::layers(gpu, "bangs", side, layers, FORMAT)
+    targets::layers(gpu, "bangs", [side; 2], layers, FORMAT)
 }
 
 /// What draws a material.
 pub(crate) fn request(of: &Composition, colors: bool) -> Request {
-    map_request(of.cut("bangs_shadow", colors, false).with("depth", true), 0.0, Some(FORMAT))
+    map_request(of.cut("bangs_shadow", colors, false).with("tile", true), 0.0, Some(FORMAT))
 }
 
-/// Draws what casts on the face of an actor: front hair, clothes, hands, and all of others; then its lids and lashes.
+/// Draws what casts on the faces of a troupe: front hair, clothes, hands, and all of others; then their lids and lashes.
 pub(crate) fn encode(
     encoder: &mut wgpu::CommandEncoder,
     inputs: &BangsShadowInputs<'_>,
     timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
 ) {
-    let last = inputs.map.layers.len() - 1;
-    for (i, layer) in inputs.map.layers.iter().enumerate() {
+    let last = inputs.atlas.layers.len() - 1;
+    for (i, layer) in inputs.atlas.layers.iter().enumerate() {
         // From the beginning of the first pass to the end of the last.
         let begin = timestamps.clone().filter(|_| i == 0);
         let end = timestamps.clone().filter(|_| i == last);
@@ -137,18 +197,18 @@ fn encode_layer(
     let BangsShadowInputs { actors, of, .. } = inputs;
     // No hair: behind everything.
     let map = targets::color(layer, wgpu::LoadOp::Clear(wgpu::Color::WHITE));
-    let depth = targets::depth(&inputs.map.depth, 1.0, wgpu::StoreOp::Discard);
+    let depth = targets::depth(&inputs.atlas.depth, 1.0, wgpu::StoreOp::Discard);
     let mut pass = targets::begin(encoder, "bangs shadow", Some(map), Some(depth), timestamps);
     let casts = |draw: &Draw| if lids { draw.casts_lids } else { draw.casts_on_face };
-    let others = of.casters.iter().filter(|_| !lids);
-    let others = others.map(|&(other, instance)| (&actors.bodies[other], instance..instance + 1, false));
-    for (body, instances, is_own) in std::iter::once((*of, of.instance(), true)).chain(others) {
+    let others = of.face_casters.iter().filter(|_| !lids);
+    let others = others.map(|(other, instances)| (&actors.bodies.troupes[*other], instances.clone(), false));
+    for (troupe, instances, is_own) in std::iter::once((*of, of.instances.clone(), true)).chain(others) {
         // The map itself cannot be read while it is drawn.
-        actors.bind_without_maps(&mut pass, body);
-        let data = body.data();
+        actors.bind_without_maps(&mut pass, troupe);
+        let data = troupe.data();
         for (draw, pipelines) in data.draws.iter().zip(data.picture()).filter(|(draw, _)| !is_own || casts(draw)) {
             if let Some(bangs) = &pipelines.bangs {
-                draw_list::record(&mut pass, body, draw, bangs, instances.clone());
+                actors.record(&mut pass, troupe, draw, bangs, instances.clone());
             }
         }
     }

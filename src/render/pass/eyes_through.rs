@@ -3,7 +3,7 @@
 use super::{Drawing, Mark, Picture, surface_cull};
 use crate::material::{AlphaMode, Material};
 use crate::render::character::Shown;
-use crate::render::draw_list::{self, Actors};
+use crate::render::draw_list::Actors;
 use crate::render::material::Composition;
 use crate::render::variants::Request;
 
@@ -19,16 +19,18 @@ pub(crate) fn request(picture: &Picture<'_>, of: &Composition, material: &Materi
 
 /// Draws every eye and brow once more; each sample takes the foremost of them.
 pub(crate) fn encode(pass: &mut wgpu::RenderPass<'_>, actors: &Actors<'_>, shown: &[Shown]) {
-    for (body, shown) in actors.bodies.iter().zip(shown) {
-        let data = body.data();
+    for (troupe, shown) in actors.shown(shown) {
+        let data = troupe.data();
         if data.through_order.is_empty() {
             continue;
         }
-        actors.bind(pass, body);
-        pass.set_stencil_reference(Mark::Through.reference(body.index));
-        for &index in &data.through_order {
-            if let Some(through) = &shown[index].through {
-                draw_list::record(pass, body, &data.draws[index], through, body.instance());
+        actors.bind(pass, troupe);
+        for (number, instances) in &troupe.numbered {
+            pass.set_stencil_reference(Mark::Through.reference(*number));
+            for &index in &data.through_order {
+                if let Some(through) = &shown[index].through {
+                    actors.record(pass, troupe, &data.draws[index], through, instances.clone());
+                }
             }
         }
     }

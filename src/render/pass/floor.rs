@@ -2,33 +2,31 @@
 
 use super::{Drawing, Mark, Picture};
 use crate::material::{Base, Options};
-use crate::render::draw_list::{self, Actors};
+use crate::render::Character;
+use crate::render::draw_list::{Actors, Draw};
 use crate::render::shaders::{Bound, Recipe};
 use crate::render::variants::{Drawn, Request, Variants};
-use crate::{Actor, Result, Stage};
+use crate::Result;
 
-/// What draws each surface of each actor.
+/// What draws each surface of a character.
 #[derive(Debug)]
 pub(crate) struct FloorPass {
-    drawn: Vec<Vec<Drawn>>,
+    drawn: Vec<Drawn>,
 }
 
 impl FloorPass {
-    pub fn new(variants: &Variants, picture: &Picture<'_>, stage: &Stage) -> Result<Self> {
+    pub fn new(variants: &Variants, picture: &Picture<'_>, of: &Character) -> Result<Self> {
         let variant = variants.get(&request(picture))?;
-        let of_actor = |actor: &Actor| {
-            let data = &actor.character.0;
-            data.draws.iter().map(|d| data.bind(&variants.gpu, variant.clone(), d.material)).collect()
-        };
-        Ok(Self { drawn: stage.actors.iter().map(of_actor).collect() })
+        let drawn = |draw: &Draw| of.0.bind(&variants.gpu, variant.clone(), draw.material);
+        Ok(Self { drawn: of.0.draws.iter().map(drawn).collect() })
     }
 
-    /// Draws every surface.
+    /// Draws every surface of all actors, who are of that character.
     pub fn encode(&self, pass: &mut wgpu::RenderPass<'_>, actors: &Actors<'_>) {
-        for (body, drawn) in actors.bodies.iter().zip(&self.drawn) {
-            actors.bind(pass, body);
-            for (draw, drawn) in body.data().draws.iter().zip(drawn) {
-                draw_list::record(pass, body, draw, drawn, body.instance());
+        for troupe in &actors.bodies.troupes {
+            actors.bind(pass, troupe);
+            for (draw, drawn) in troupe.data().draws.iter().zip(&self.drawn) {
+                actors.record(pass, troupe, draw, drawn, troupe.instances.clone());
             }
         }
     }

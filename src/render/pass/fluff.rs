@@ -3,7 +3,7 @@
 use super::{Drawing, Mark, Picture};
 use crate::material::Fluff;
 use crate::render::character::Shown;
-use crate::render::draw_list::{self, Actors};
+use crate::render::draw_list::Actors;
 use crate::render::material::Composition;
 use crate::render::variants::Request;
 
@@ -29,13 +29,13 @@ pub(crate) fn request(picture: &Picture<'_>, of: &Composition, colors: bool) -> 
 
 /// Draws every coat, root to tips. `px_per_m`: size of a metre on the nearest character, pixels.
 pub(crate) fn encode(pass: &mut wgpu::RenderPass<'_>, actors: &Actors<'_>, shown: &[Shown], px_per_m: f32) {
-    for (body, shown) in actors.bodies.iter().zip(shown).filter(|(body, _)| !body.shells.is_empty()) {
-        actors.bind(pass, body);
-        let data = body.data();
+    for (troupe, shown) in actors.shown(shown).filter(|(troupe, _)| !troupe.shells.is_empty()) {
+        actors.bind(pass, troupe);
+        let data = troupe.data();
         for (draw, pipelines) in data.draws.iter().zip(&**shown) {
             let (Some(coat), Some(fluff)) = (&pipelines.fluff, data.material(draw).fluff) else { continue };
-            let last = body.shells.start + shells(&fluff, px_per_m);
-            draw_list::record(pass, body, draw, coat, body.shells.start..last.min(body.shells.end));
+            let last = troupe.shells.start + shells(&fluff, px_per_m) * troupe.instances.len() as u32;
+            actors.record(pass, troupe, draw, coat, troupe.shells.start..last.min(troupe.shells.end));
         }
     }
 }

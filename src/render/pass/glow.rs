@@ -3,7 +3,7 @@
 use super::{ADD, HDR_FORMAT, surface_cull};
 use crate::Gpu;
 use crate::material::{AlphaMode, Material};
-use crate::render::draw_list::{self, Actors};
+use crate::render::draw_list::Actors;
 use crate::render::material::Composition;
 use crate::render::targets;
 use crate::render::variants::{Request, State};
@@ -41,12 +41,13 @@ pub(crate) fn encode(
 ) {
     let light = targets::color(inputs.light, wgpu::LoadOp::Clear(wgpu::Color::BLACK));
     let mut pass = targets::begin(encoder, "glow", Some(light), None, timestamps);
-    for body in inputs.actors.bodies {
-        inputs.actors.bind(&mut pass, body);
-        let data = body.data();
+    let actors = &inputs.actors;
+    for troupe in &actors.bodies.troupes {
+        actors.bind(&mut pass, troupe);
+        let data = troupe.data();
         for (draw, pipelines) in data.draws.iter().zip(data.picture()) {
             if let Some(glow) = &pipelines.glow {
-                draw_list::record(&mut pass, body, draw, glow, body.instance());
+                actors.record(&mut pass, troupe, draw, glow, troupe.instances.clone());
             }
         }
     }

@@ -3,7 +3,7 @@
 use super::{Drawing, Mark, Picture, surface_cull};
 use crate::material::{AlphaMode, Material};
 use crate::render::character::Shown;
-use crate::render::draw_list::{self, Actors};
+use crate::render::draw_list::Actors;
 use crate::render::material::Composition;
 use crate::render::variants::Request;
 
@@ -31,17 +31,21 @@ pub(crate) fn request(
 /// hair, those of all actors follow what is neither, and hair comes last.
 pub(crate) fn encode(pass: &mut wgpu::RenderPass<'_>, actors: &Actors<'_>, shown: &[Shown]) {
     for mark in [Mark::None, Mark::Eyes, Mark::Hair] {
-        for (body, shown) in actors.bodies.iter().zip(shown) {
-            let draws = || body.solid_draws().filter(|(_, draw)| draw.mark == mark);
+        for (troupe, shown) in actors.shown(shown) {
+            let draws = || troupe.solid_draws().filter(|(_, draw)| draw.mark == mark);
             if draws().next().is_none() {
                 continue;
             }
-            actors.bind(pass, body);
-            if mark != Mark::None {
-                pass.set_stencil_reference(mark.reference(body.index));
-            }
-            for (i, draw) in draws() {
-                draw_list::record(pass, body, draw, &shown[i].surface, body.instance());
+            actors.bind(pass, troupe);
+            let all = [(0, troupe.instances.clone())];
+            let numbered = if mark == Mark::Hair { &troupe.numbered[..] } else { &all };
+            for (number, instances) in numbered {
+                if mark != Mark::None {
+                    pass.set_stencil_reference(mark.reference(*number));
+                }
+                for (i, draw) in draws() {
+                    actors.record(pass, troupe, draw, &shown[i].surface, instances.clone());
+                }
             }
         }
     }

@@ -3,7 +3,7 @@
 use super::{Drawing, Mark, Picture};
 use crate::material::{AlphaMode, Material};
 use crate::render::character::Shown;
-use crate::render::draw_list::{self, Actors};
+use crate::render::draw_list::Actors;
 use crate::render::material::{Component, Composition};
 use crate::render::variants::Request;
 
@@ -43,11 +43,11 @@ pub(crate) fn request(picture: &Picture<'_>, of: &Composition, material: &Materi
 
 /// Draws the outlines of all opaque surfaces.
 pub(crate) fn encode(pass: &mut wgpu::RenderPass<'_>, actors: &Actors<'_>, shown: &[Shown]) {
-    for (body, shown) in actors.bodies.iter().zip(shown) {
-        actors.bind(pass, body);
-        for (i, draw) in body.solid_draws() {
+    for (troupe, shown) in actors.shown(shown) {
+        actors.bind(pass, troupe);
+        for (i, draw) in troupe.solid_draws() {
             if let Some(outline) = &shown[i].outline {
-                draw_list::record(pass, body, draw, outline, body.instance());
+                actors.record(pass, troupe, draw, outline, troupe.instances.clone());
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use super::{depth_state, surface_cull};
 use crate::material::Material;
-use crate::render::draw_list::{self, Actors};
+use crate::render::draw_list::Actors;
 use crate::render::material::Composition;
 use crate::render::targets::{self, PrepassTargets};
 use crate::render::variants::{Drawn, Request, State};
@@ -16,7 +16,7 @@ pub(crate) struct PrepassInputs<'a> {
     pub targets: &'a PrepassTargets,
     /// Whether normals and parts are drawn, too.
     pub surfaces: bool,
-    /// By body and draw; `None` leaves it out.
+    /// By troupe and draw; `None` leaves it out.
     pub drawn: &'a dyn Fn(usize, usize) -> Option<&'a Drawn>,
 }
 
@@ -41,11 +41,12 @@ pub(crate) fn encode(
         inputs.surfaces.then(|| targets::color(surfaces_view, wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT)));
     let depth = targets::depth(depth_view, 0.0, wgpu::StoreOp::Store);
     let mut pass = targets::begin(encoder, "prepass", surfaces, Some(depth), timestamps);
-    for (of, body) in inputs.actors.bodies.iter().enumerate() {
-        inputs.actors.bind(&mut pass, body);
-        for (index, draw) in body.data().draws.iter().enumerate() {
+    let actors = &inputs.actors;
+    for (of, troupe) in actors.bodies.troupes.iter().enumerate() {
+        actors.bind(&mut pass, troupe);
+        for (index, draw) in troupe.data().draws.iter().enumerate() {
             if let Some(drawn) = (inputs.drawn)(of, index) {
-                draw_list::record(&mut pass, body, draw, drawn, body.instance());
+                actors.record(&mut pass, troupe, draw, drawn, troupe.instances.clone());
             }
         }
     }

@@ -1,15 +1,16 @@
 //! Depth of characters from the key light, for the shadows of each on itself and of those beside it.
 
+use std::ops::Range;
+
 use glam::Vec3;
 
 use super::{DEPTH_FORMAT, map_request};
 use crate::Gpu;
-use crate::render::draw_list::{self, Actors};
+use crate::render::draw_list::Actors;
 use crate::render::material::Composition;
 use crate::render::targets;
-use crate::render::variants::Request;
-use crate::scene::{MOST_SHADOWED, SelfShadow};
-use crate::stage::body::Body;
+use crate::render::variants::{Drawn, Request};
+use crate::scene::SelfShadow;
 
 /// How a character's map fits it.
 #[derive(Debug)]
@@ -42,14 +43,17 @@ pub(crate) struct ShadowRows {
     pub spread: f32,
     /// World space.
     pub middle: Vec3,
+    /// Layer of the map, where there is one.
+    pub layer: Option<u32>,
 }
 
-/// What the pass reads and writes: the map of a body.
+/// What the pass reads and writes: a layer of the map.
 pub(crate) struct ShadowInputs<'a> {
     pub actors: Actors<'a>,
     pub map: &'a ShadowMap,
     pub layer: u32,
-    pub of: &'a Body,
+    /// By troupe and draw; `None` leaves it out.
+    pub drawn: &'a dyn Fn(usize, usize) -> Option<&'a Drawn>,
 }
 
 impl ShadowFit {
@@ -69,15 +73,14 @@ impl ShadowFit {
             // Three taps of a texel each span the edge.
             spread: (self.settings.soft_width_m / (3.0 * width)).max(texel),
             middle,
+            layer: None,
         }
     }
 }
 
 impl ShadowMap {
-    /// Makes room for the maps of these characters, as large as the largest asks for; whether there are other ones now.
-    pub fn fit(map: &mut Option<Self>, gpu: &Gpu, fits: &[&ShadowFit]) -> bool {
-        let Some(side) = fits.iter().map(|f| f.settings.side).max() else { return false };
-        let wanted = (fits.len() as u32).min(MOST_SHADOWED);
+    /// Makes room for so many layers; whether there are other ones now.
+    pub fn fit(map: &mut Option<Self>, gpu: &Gpu, side: u32, wanted: u32) -> bool {
         if map.as_ref().is_some_and(|m| m.side() == side && m.layers.len() as u32 >= wanted) {
             return false;
         }
@@ -100,7 +103,7 @@ impl ShadowMap {
 
 /// Maps without a character.
 pub(crate) fn map_texture(gpu: &Gpu, side: u32, layers: u32) -> wgpu::TextureView {
-    targets::layers(gpu, "shadow", side, layers, DEPTH_FORMAT)
+    targets::layers(gpu, "shadow", [side; 2], layers, DEPTH_FORMAT)
 }
 
 /// Compares a receiver with the map: lit where nothing is nearer to the light.
@@ -119,23 +122,23 @@ pub(crate) fn request(of: &Composition, colors: bool) -> Request {
     map_request(of.cut("shadow", colors, false), 1.5, None)
 }
 
-/// Draws what casts on an actor into its map: itself, and others beside it.
+/// Draws what casts into a layer: instances of troupes.
 pub(crate) fn encode(
     encoder: &mut wgpu::CommandEncoder,
-    inputs: &ShadowInputs<'_>,
+    inputs: ShadowInputs<'_>,
+    casters: impl Iterator<Item = (usize, Range<u32>)>,
     timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
 ) {
-    let ShadowInputs { actors, map, layer, of } = inputs;
-    let depth = targets::depth(&map.layers[*layer as usize], 1.0, wgpu::StoreOp::Store);
+    let ShadowInputs { actors, map, layer, drawn } = inputs;
+    let depth = targets::depth(&map.layers[layer as usize], 1.0, wgpu::StoreOp::Store);
     let mut pass = targets::begin(encoder, "shadow", None, Some(depth), timestamps);
-    let others = of.casters.iter().map(|&(other, instance)| (&actors.bodies[other], instance..instance + 1));
-    for (body, instances) in std::iter::once((*of, of.instance())).chain(others) {
+    for (of, instances) in casters {
+        let troupe = &actors.bodies.troupes[of];
         // The map itself cannot be read while it is drawn.
-        actors.bind_without_maps(&mut pass, body);
-        let data = body.data();
-        for (draw, pipelines) in data.draws.iter().zip(data.picture()) {
-            if let Some(shadow) = &pipelines.shadow {
-                draw_list::record(&mut pass, body, draw, shadow, instances.clone());
+        actors.bind_without_maps(&mut pass, troupe);
+        for (i, draw) in troupe.data().draws.iter().enumerate() {
+            if let Some(shadow) = drawn(of, i) {
+                actors.record(&mut pass, troupe, draw, shadow, instances.clone());
             }
         }
     }

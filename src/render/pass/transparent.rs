@@ -3,7 +3,7 @@
 use super::{Drawing, Mark, Picture, surface_cull};
 use crate::material::Material;
 use crate::render::character::Shown;
-use crate::render::draw_list::{self, Actors};
+use crate::render::draw_list::Actors;
 use crate::render::material::Composition;
 use crate::render::variants::Request;
 
@@ -19,15 +19,17 @@ pub(crate) fn request(picture: &Picture<'_>, of: &Composition, material: &Materi
 pub(crate) fn encode(pass: &mut wgpu::RenderPass<'_>, actors: &Actors<'_>, shown: &[Shown], order: &[(usize, usize)]) {
     let mut last = None;
     for &(of, index) in order {
-        let body = &actors.bodies[of];
-        if last != Some(of) {
-            actors.bind(pass, body);
-            last = Some(of);
+        let body = &actors.bodies.list[of];
+        let troupe = &actors.bodies.troupes[body.troupe];
+        if last != Some(body.troupe) {
+            actors.bind(pass, troupe);
+            last = Some(body.troupe);
         }
-        let (draw, pipelines) = (&body.data().draws[index], &shown[of][index]);
-        draw_list::record(pass, body, draw, &pipelines.surface, body.instance());
+        let (draw, pipelines) = (&troupe.data().draws[index], &shown[body.troupe][index]);
+        let instance = body.instance..body.instance + 1;
+        actors.record(pass, troupe, draw, &pipelines.surface, instance.clone());
         if let Some(outline) = &pipelines.outline {
-            draw_list::record(pass, body, draw, outline, body.instance());
+            actors.record(pass, troupe, draw, outline, instance);
         }
     }
 }
