@@ -75,6 +75,8 @@ pub struct BenchReport {
     pub floor_ms: Spread,
     /// Median frame over median floor.
     pub floor_ratio: f64,
+    /// The processor's share: poses, lists and commands until they are submitted, milliseconds.
+    pub encode_ms: Spread,
     /// Time of each pass where the adapter has timestamps; empty elsewhere.
     pub passes: Vec<PassTime>,
     /// Draw calls a frame.
@@ -101,6 +103,8 @@ pub struct Bench {
     floor: FloorPass,
     clock: Clock,
     frame: u32,
+    /// Of the last frame.
+    encode_ms: f64,
 }
 
 impl Bench {
@@ -133,6 +137,7 @@ impl Bench {
             clock: Clock::new(gpu),
             view: options.view.clone(),
             frame: 0,
+            encode_ms: 0.0,
             renderer,
             character,
             stage,
@@ -156,7 +161,7 @@ impl Bench {
     }
 
     fn draw(&mut self, is_frame: bool) -> Result<()> {
-        let Self { gpu, renderer, stage, view, target, floor, clock, frame, .. } = self;
+        let Self { gpu, renderer, stage, view, target, floor, clock, frame, encode_ms, .. } = self;
         *frame += 1;
         // Every frame another pose; nobody could tell them apart.
         let moved = (*frame % 2) as f32 * 1e-6;
@@ -165,12 +170,15 @@ impl Bench {
                 local.translation.x = node.transform.translation.x + moved + i as f32 * 1e-7;
             }
         }
+        let start = Instant::now();
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("bench") });
         let shown = if is_frame { Shown::Picture } else { Shown::Floor(floor) };
         renderer.encode_shared(&mut encoder, stage, is_frame, clock)?;
         renderer.encode(&mut encoder, stage, view, Target::from(&*target), shown, clock)?;
         clock.resolve(&mut encoder);
-        gpu.queue.submit([encoder.finish()]);
+        let commands = encoder.finish();
+        *encode_ms = milliseconds(start);
+        gpu.queue.submit([commands]);
         gpu.wait(TIMEOUT)
     }
 }
@@ -189,12 +197,13 @@ pub fn run(gpu: &Gpu, scene: &Scene, options: &BenchOptions) -> Result<BenchRepo
     // Warms the floor up as the frame was.
     bench.floor()?;
 
-    let (mut frames, mut floors) = (Vec::new(), Vec::new());
+    let (mut frames, mut floors, mut encodes) = (Vec::new(), Vec::new(), Vec::new());
     let mut passes = vec![Vec::new(); Timed::ALL.len()];
     for _ in 0..options.frames {
         let start = Instant::now();
         bench.frame()?;
         frames.push(milliseconds(start));
+        encodes.push(bench.encode_ms);
         for (list, ms) in passes.iter_mut().zip(bench.clock.read(gpu)?) {
             list.extend(ms);
         }
@@ -212,6 +221,7 @@ pub fn run(gpu: &Gpu, scene: &Scene, options: &BenchOptions) -> Result<BenchRepo
         frames: options.frames,
         frame_ms,
         floor_ms,
+        encode_ms: spread(encodes),
         floor_ratio: frame_ms.median / floor_ms.median.max(1e-9),
         passes: Timed::ALL
             .iter()

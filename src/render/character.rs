@@ -97,8 +97,19 @@ impl Character {
     /// Draw calls of the colour pass with everything in view, outlines and coats of fluff included.
     #[must_use]
     pub fn draw_count(&self) -> usize {
+        self.draw_count_of(1)
+    }
+
+    /// The same of so many actors: what is not blended is drawn for all of them together.
+    pub(crate) fn draw_count_of(&self, actors: usize) -> usize {
         let count = |p: &Pipelines<Drawn>| 1 + usize::from(p.outline.is_some()) + usize::from(p.fluff.is_some());
-        self.0.picture().iter().map(count).sum()
+        let times = |draw: &Draw| if draw.blend { actors } else { 1 };
+        self.0.draws.iter().zip(self.0.picture()).map(|(draw, p)| times(draw) * count(p)).sum()
+    }
+
+    /// Whether they are the same one.
+    pub(crate) fn is(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
     }
 
     /// Triangles, outlines not counted.

@@ -31,6 +31,8 @@ pub(crate) struct Rig {
     pub eyes_and_hair: Option<[(Vec3, f32); 2]>,
     /// Least and greatest corner of all vertices at rest, character space; empty without a vertex.
     pub bounds: Option<(Vec3, Vec3)>,
+    /// Middle and radius of a sphere round what each joint moves, mesh space; in the order of the joints.
+    pub moved: Vec<Option<(Vec3, f32)>>,
 }
 
 #[derive(Debug)]
@@ -68,6 +70,8 @@ pub(crate) struct Geometry {
     pub weight_count: usize,
     /// Material by part id, which counts primitives in the order of nodes.
     pub part_materials: Vec<usize>,
+    /// Box round what each joint moves, mesh space.
+    moved_by_joint: Vec<Option<(Vec3, Vec3)>>,
 }
 
 impl Geometry {
@@ -124,6 +128,7 @@ impl Geometry {
                 parts.push((parts.len() as u32, node_index, primitive, group, rest_matrix));
             }
         }
+        geometry.moved_by_joint = vec![None; geometry.joint_count];
         // Opaque first and by material, so that draws merge; blended parts keep their order in the file.
         let blend = |p: &Primitive| scene.materials.get(p.material).is_some_and(|m| m.alpha.mode == AlphaMode::Blend);
         let mask = |p: &Primitive| scene.materials.get(p.material).is_some_and(|m| m.alpha.mode == AlphaMode::Mask);
@@ -133,6 +138,9 @@ impl Geometry {
             geometry.push(*id, primitive, *group, *rest_matrix);
             materials_by_id[*id as usize] = primitive.material;
         }
+        let moved = geometry.moved_by_joint.iter();
+        let sphere = |(low, high): (Vec3, Vec3)| ((low + high) * 0.5, (high - low).length() * 0.5);
+        geometry.rig.moved = moved.map(|b| b.map(sphere)).collect();
         geometry.part_materials = materials_by_id;
         geometry.rig.eyes_and_hair = eyes_and_hair(scene, &geometry.parts);
         geometry.vertex_refs.push([0, geometry.morphs.len() as u32]);
@@ -167,6 +175,17 @@ impl Geometry {
             morphs.take(v as u32, &mut self.morphs);
             let world = rest.transform_point3(Vec3::from(position));
             (low, high) = (low.min(world), high.max(world));
+            let per_vertex = group.influences_per_vertex as usize;
+            let influences = v * per_vertex..(v + 1) * per_vertex;
+            let joints = primitive.influences.joints.get(influences.clone()).unwrap_or_default().iter();
+            let weights = primitive.influences.weights.get(influences).unwrap_or_default().iter();
+            let moving = joints.zip(weights).filter(|(_, weight)| **weight > 0.0).map(|(joint, _)| u32::from(*joint));
+            let rigid = (per_vertex == 0).then_some(0);
+            for joint in moving.chain(rigid) {
+                let at = Vec3::from(position);
+                let moved = &mut self.moved_by_joint[(group.first_joint + joint) as usize];
+                *moved = Some(moved.map_or((at, at), |(low, high)| (low.min(at), high.max(at))));
+            }
         }
         if group.influences_per_vertex > 0 {
             pack_influences(&primitive.influences, &mut self.influences);

@@ -49,6 +49,20 @@ impl From<Mat4> for AffineRows {
     }
 }
 
+impl AffineRows {
+    /// A point that it moves.
+    pub fn transform_point(&self, p: Vec3) -> Vec3 {
+        let at = |row: &[f32; 4]| row[0] * p.x + row[1] * p.y + row[2] * p.z + row[3];
+        Vec3::new(at(&self.row_x), at(&self.row_y), at(&self.row_z))
+    }
+
+    /// How far it stretches lengths at most.
+    pub fn scale(&self) -> f32 {
+        let column = |i: usize| self.row_x[i].powi(2) + self.row_y[i].powi(2) + self.row_z[i].powi(2);
+        column(0).max(column(1)).max(column(2)).sqrt()
+    }
+}
+
 /// First stream of every draw: what does not move.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]

@@ -47,6 +47,9 @@ pub(crate) struct Body {
     pub world: Mat4,
     /// Share of the key light that arrives.
     key_light: f32,
+    /// Least and greatest corner in its pose, character space; and what that is in the world.
+    bounds: (Vec3, Vec3),
+    volume: Volume,
     shadow_layer: Option<u32>,
     /// Moves the head from its rest to the pose, and the hips.
     head: Mat4,
@@ -99,7 +102,7 @@ struct Scratch {
     world: Vec<Mat4>,
     joints: Vec<AffineRows>,
     weights: Vec<f32>,
-    spheres: Vec<Sphere>,
+    volumes: Vec<Volume>,
     /// By body, where it has them: what the shadow on its face may come through, its eyes, its hair, their number.
     faces: Vec<Option<FaceLight>>,
     eyes: Vec<Option<[Sphere; 2]>>,
@@ -117,10 +120,17 @@ struct Sphere {
     radius: f32,
 }
 
+/// A box that stands in any way, world space: half of its edges.
+#[derive(Clone, Copy, Debug, Default)]
+struct Volume {
+    middle: Vec3,
+    edges: [Vec3; 3],
+}
+
 /// Where the light of the shadow on a face comes from: along a column.
 #[derive(Clone, Copy, Debug)]
 struct FaceLight {
-    head: Sphere,
+    head: Volume,
     to_light: Vec3,
 }
 
@@ -130,14 +140,6 @@ const MOST_CASTING: usize = 16;
 const REACH_M: f32 = 4.0;
 
 impl Sphere {
-    /// Whether something casts on it along a light: what stands towards it, within reach.
-    fn is_cast_on_by(self, other: Self, to_light: Vec3) -> bool {
-        let away = other.middle - self.middle;
-        let along = away.dot(to_light);
-        let reach = self.radius + other.radius;
-        along > -reach && along < reach + REACH_M && (away - to_light * along).length() < reach
-    }
-
     fn meets(self, other: Self, window: f32) -> bool {
         self.middle.distance(other.middle) < self.radius + other.radius + window
     }
@@ -145,6 +147,33 @@ impl Sphere {
     /// Moved with an actor.
     fn moved(self, by: &Mat4) -> Self {
         Self { middle: by.transform_point3(self.middle), radius: self.radius * by.x_axis.truncate().length() }
+    }
+}
+
+impl Volume {
+    /// A box of an actor's space in the world.
+    fn of(low: Vec3, high: Vec3, world: &Mat4) -> Self {
+        let half = (high - low) * 0.5;
+        let edge = |axis: Vec3| world.transform_vector3(axis);
+        let edges = [edge(Vec3::X * half.x), edge(Vec3::Y * half.y), edge(Vec3::Z * half.z)];
+        Self { middle: world.transform_point3((low + high) * 0.5), edges }
+    }
+
+    /// How far it reaches from its middle along a unit axis.
+    fn reach(&self, axis: Vec3) -> f32 {
+        self.edges.iter().map(|edge| edge.dot(axis).abs()).sum()
+    }
+
+    fn radius(&self) -> f32 {
+        self.edges.iter().map(|edge| edge.length_squared()).sum::<f32>().sqrt()
+    }
+
+    /// Whether something may cast on it along a light: what stands towards that, within reach.
+    fn is_cast_on_by(&self, other: &Self, [right, up, to_light]: [Vec3; 3]) -> bool {
+        let away = other.middle - self.middle;
+        let meets = |axis: Vec3| away.dot(axis).abs() < self.reach(axis) + other.reach(axis);
+        let (along, both) = (away.dot(to_light), self.reach(to_light) + other.reach(to_light));
+        along > -both && along < both + REACH_M && meets(right) && meets(up)
     }
 }
 
@@ -199,7 +228,7 @@ impl Bodies {
                 let found = troupes
                     .iter_mut()
                     .enumerate()
-                    .filter(|(_, troupe)| troupe.is_of(&actor.character))
+                    .filter(|(_, troupe)| troupe.character.is(&actor.character))
                     .find_map(|(t, troupe)| Some((t, troupe.take_slot()?)));
                 let (troupe, slot) = found.unwrap_or_else(|| {
                     let mut troupe = Troupe::new(renderer, &actor.character);
@@ -229,8 +258,8 @@ impl Bodies {
     fn fit(&mut self, renderer: &Renderer, has_others: bool, to_light: Vec3, focus: Option<Vec3>, on_world: bool) {
         let gpu = renderer.gpu();
         let Self { list, scratch, .. } = self;
-        scratch.spheres.clear();
-        scratch.spheres.extend(list.iter().map(Body::sphere));
+        scratch.volumes.clear();
+        scratch.volumes.extend(list.iter().map(|body| body.volume));
         scratch.eyes.clear();
         scratch.eyes.extend(list.iter().map(Body::eyes_and_hair));
         scratch.faces.clear();
@@ -250,12 +279,12 @@ impl Bodies {
     /// Who has a shadow map of its own, those nearest to `focus` first; whether there are other maps now.
     fn fit_maps(&mut self, gpu: &Gpu, focus: Option<Vec3>, on_world: bool) -> bool {
         let Self { list, shadow, world_map, scratch, .. } = self;
-        let Scratch { order, spheres, .. } = scratch;
+        let Scratch { order, volumes, .. } = scratch;
         order.clear();
         order.extend((0..list.len()).filter(|i| list[*i].data().shadow.is_some()));
         if let Some(focus) = focus {
             order.sort_by(|a, b| {
-                let away = |i: &usize| spheres[*i].middle.distance_squared(focus);
+                let away = |i: &usize| volumes[*i].middle.distance_squared(focus);
                 away(a).total_cmp(&away(b))
             });
         }
@@ -309,7 +338,7 @@ impl Bodies {
     /// What stands for what in draws: actors by troupe, shells of coats, and what casts where.
     fn fill_lists(&mut self, to_light: Vec3) {
         let Self { list, troupes, crowd: Some(crowd), world_map, scratch, .. } = self else { return };
-        let Scratch { spheres, faces, numbers, near, order, pairs, .. } = scratch;
+        let Scratch { volumes, faces, numbers, near, order, pairs, .. } = scratch;
         let entries = &mut crowd.list;
         entries.clear();
         let instance = |body: &Body, actor: usize, extra: usize| Instance {
@@ -353,7 +382,7 @@ impl Bodies {
                 let own = (list[i].troupe, entries.len() as u32);
                 list[i].casters.push(own);
                 entries.push(instance(&list[i], i, i));
-                casting(near, spheres, i, spheres[i], to_light);
+                casting(near, volumes, i, volumes[i], to_light);
                 for &(_, o) in near.iter().take(MOST_CASTING) {
                     let caster = (list[o].troupe, entries.len() as u32);
                     list[i].casters.push(caster);
@@ -361,7 +390,7 @@ impl Bodies {
                 }
             }
             if let Some(face) = faces[i] {
-                casting(near, spheres, i, face.head, face.to_light);
+                casting(near, volumes, i, face.head, face.to_light);
                 pairs.extend(near.iter().take(MOST_CASTING).map(|&(_, o)| ((list[i].troupe, list[o].troupe), i, o)));
             }
         }
@@ -378,7 +407,7 @@ impl Bodies {
         if let Some(layer) = world_map.layer
             && let Some(shadow) = &self.shadow
         {
-            world_map.rows = world_rows(list, spheres, shadow.side(), to_light);
+            world_map.rows = world_rows(list, volumes, shadow.side(), to_light);
             world_map.rows.layer = Some(layer);
         }
     }
@@ -455,25 +484,39 @@ pub(crate) struct StaleMaps {
 }
 
 /// Finds what casts on something of a body, the nearest first.
-fn casting(near: &mut Vec<(f32, usize)>, spheres: &[Sphere], of: usize, on: Sphere, to_light: Vec3) {
+fn casting(near: &mut Vec<(f32, usize)>, volumes: &[Volume], of: usize, on: Volume, to_light: Vec3) {
     near.clear();
-    let others = spheres.iter().enumerate().filter(|(o, sphere)| *o != of && on.is_cast_on_by(**sphere, to_light));
-    near.extend(others.map(|(o, sphere)| (on.middle.distance(sphere.middle) - sphere.radius, o)));
+    let right = to_light.any_orthonormal_vector();
+    let axes = [right, to_light.cross(right), to_light];
+    let others = volumes.iter().enumerate().filter(|(o, volume)| *o != of && on.is_cast_on_by(volume, axes));
+    near.extend(others.map(|(o, volume)| (on.middle.distance(volume.middle) - volume.radius(), o)));
     near.sort_by(|a, b| a.0.total_cmp(&b.0));
 }
 
-/// The map that holds everybody.
-fn world_rows(list: &[Body], spheres: &[Sphere], side: u32, to_light: Vec3) -> ShadowRows {
+/// A box round spheres that joints have moved; morphs do not count.
+fn bounds(moved: &[Option<(Vec3, f32)>], joints: &[AffineRows]) -> (Vec3, Vec3) {
     let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
-    for sphere in spheres.iter().filter(|s| s.radius > 0.0) {
-        (low, high) = (low.min(sphere.middle - sphere.radius), high.max(sphere.middle + sphere.radius));
+    for (joint, (middle, radius)) in joints.iter().zip(moved).filter_map(|(j, m)| Some((j, (*m)?))) {
+        let middle = joint.transform_point(middle);
+        let radius = radius * joint.scale();
+        (low, high) = (low.min(middle - radius), high.max(middle + radius));
+    }
+    if low.cmple(high).all() { (low, high) } else { (Vec3::ZERO, Vec3::ZERO) }
+}
+
+/// The map that holds everybody.
+fn world_rows(list: &[Body], volumes: &[Volume], side: u32, to_light: Vec3) -> ShadowRows {
+    let there = || volumes.iter().filter(|v| v.radius() > 0.0);
+    let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+    for volume in there() {
+        let reach = Vec3::new(volume.reach(Vec3::X), volume.reach(Vec3::Y), volume.reach(Vec3::Z));
+        (low, high) = (low.min(volume.middle - reach), high.max(volume.middle + reach));
     }
     if !low.cmple(high).all() {
         return ShadowRows::default();
     }
     let middle = (low + high) * 0.5;
-    let away = |s: &Sphere| middle.distance(s.middle) + s.radius;
-    let radius = spheres.iter().filter(|s| s.radius > 0.0).map(away).fold(0.0, f32::max);
+    let radius = there().map(|v| middle.distance(v.middle) + v.radius()).fold(0.0, f32::max);
     let settings = list.iter().find_map(|b| Some(b.data().shadow.as_ref()?.settings)).unwrap_or_default();
     ShadowFit { settings, middle, radius }.rows(side, middle, 1.0, to_light)
 }
@@ -489,6 +532,8 @@ impl Body {
             casters: Vec::new(),
             world: actor.world,
             key_light: actor.key_light,
+            bounds: (Vec3::ZERO, Vec3::ZERO),
+            volume: Volume::default(),
             shadow_layer: None,
             head: Mat4::IDENTITY,
             hips: Mat4::IDENTITY,
@@ -499,7 +544,7 @@ impl Body {
     }
 
     fn is_of(&self, actor: &Actor) -> bool {
-        self.id == actor.id && std::ptr::eq(&*self.character.0, &*actor.character.0)
+        self.id == actor.id && self.character.is(&actor.character)
     }
 
     /// What it is.
@@ -550,18 +595,14 @@ impl Body {
         (self.head, self.hips) = (moved(rig.head), moved(rig.hips));
         if troupe.pose(self.slot, joints, weights, self.revisions[0] == 0) {
             self.revisions[0] += 1;
+            self.bounds = bounds(&rig.moved, joints);
         }
+        let (low, high) = self.bounds;
+        self.volume = Volume::of(low, high, &self.world);
         if self.edits.pose(looks, pose) {
             self.revisions[1] += 1;
         }
         Ok(())
-    }
-
-    /// A sphere round it in the world.
-    fn sphere(&self) -> Sphere {
-        let Some((low, high)) = self.data().rig.bounds else { return Sphere::default() };
-        let at_rest = Sphere { middle: (low + high) * 0.5, radius: (high - low).length() * 0.5 };
-        Sphere { middle: self.hips.transform_point3(at_rest.middle), ..at_rest }.moved(&self.world)
     }
 
     /// Spheres round its eyes and its hair in the world, where the ones are seen through the other.
@@ -577,9 +618,11 @@ impl Body {
         let fit = self.data().bangs.as_ref()?;
         let of_character = self.world.inverse().transform_vector3(to_light).normalize_or(Vec3::Z);
         let direction = fit.to_light(self.head, of_character);
-        let head = Sphere { middle: self.head.transform_point3(fit.middle), radius: fit.half * std::f32::consts::SQRT_2 };
+        // The map may be turned about the light.
+        let half = Vec3::splat(fit.half * std::f32::consts::SQRT_2);
+        let middle = self.head.transform_point3(fit.middle);
         let to_light = self.world.transform_vector3(direction).normalize_or(to_light);
-        Some(FaceLight { head: head.moved(&self.world), to_light })
+        Some(FaceLight { head: Volume::of(middle - half, middle + half, &self.world), to_light })
     }
 
     fn state<'a>(

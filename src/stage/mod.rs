@@ -9,6 +9,7 @@ pub use actor::Actor;
 
 use glam::{Mat4, Vec3};
 
+use crate::render::Character;
 use crate::scene::{Lights, Post};
 use crate::{Error, Result};
 use body::Bodies;
@@ -72,9 +73,14 @@ impl Stage {
         self.actors.iter().map(|a| &a.world)
     }
 
-    /// Draw calls of a frame's colour pass with everything in view, outlines and coats of fluff included.
+    /// Draw calls of a frame's colour pass with everything in view, outlines and coats of fluff included. Actors of one
+    /// character are drawn together, but for blended materials, for those that an actor has changed, and for hair and eyes where
+    /// heads come so near each other that eyes might be seen through another's hair; these last two are not counted.
     #[must_use]
     pub fn draw_count(&self) -> usize {
-        self.actors.iter().map(|a| a.character.draw_count()).sum()
+        let is_first = |i: usize| !self.actors[..i].iter().any(|a| a.character.is(&self.actors[i].character));
+        let firsts = (0..self.actors.len()).filter(|i| is_first(*i)).map(|i| &self.actors[i].character);
+        let of = |c: &Character| self.actors.iter().filter(|a| a.character.is(c)).count();
+        firsts.map(|c| c.draw_count_of(of(c))).sum()
     }
 }

@@ -70,10 +70,6 @@ impl Troupe {
         &self.character.0
     }
 
-    pub fn is_of(&self, character: &Character) -> bool {
-        std::ptr::eq(&*self.character.0, &*character.0)
-    }
-
     /// A slot for an actor, where there is room.
     pub fn take_slot(&mut self) -> Option<u32> {
         let free = self.slots.iter().position(|taken| !taken);

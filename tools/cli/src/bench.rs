@@ -83,7 +83,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     }
 
     let mut times = Table::new(&["ms a frame", "median", "min", "p95"]);
-    for (name, ms) in [("frame", &report.frame_ms), ("floor", &report.floor_ms)] {
+    for (name, ms) in [("frame", &report.frame_ms), ("floor", &report.floor_ms), ("encode", &report.encode_ms)] {
         times.row([name.into(), format!("{:.3}", ms.median), format!("{:.3}", ms.min), format!("{:.3}", ms.p95)]);
     }
     let mut passes = Table::new(&["pass", "ms"]);
