@@ -263,12 +263,17 @@ impl<'a> Actors<'a> {
         pass.set_index_buffer(data.indices.slice(..), wgpu::IndexFormat::Uint32);
     }
 
-    /// Draws a draw of a troupe, for all these instances together but for those whose actor has changed the material.
+    /// The body that an instance stands for.
+    pub fn body(self, instance: u32) -> &'a Body {
+        &self.bodies.list[self.crowd.list[instance as usize].actor as usize]
+    }
+
+    /// Draws indices of a troupe, for all these instances together but for those whose actor has changed the material.
     pub fn record(
         &self,
         pass: &mut wgpu::RenderPass<'_>,
         troupe: &Troupe,
-        draw: &Draw,
+        indices: Range<u32>,
         drawn: &Drawn,
         instances: Range<u32>,
     ) {
@@ -276,10 +281,10 @@ impl<'a> Actors<'a> {
             return;
         }
         pass.set_pipeline(&drawn.pipeline);
-        let Some(bound) = &drawn.bound else { return pass.draw_indexed(draw.indices.clone(), 0, instances) };
+        let Some(bound) = &drawn.bound else { return pass.draw_indexed(indices, 0, instances) };
         let data = troupe.data();
         let edited = |instance: u32| {
-            let edits = self.bodies.list[self.crowd.list[instance as usize].actor as usize].edits();
+            let edits = self.body(instance).edits();
             edits.group(&data.made_by.0, &data.looks, bound)
         };
         let mut first = instances.start;
@@ -290,7 +295,7 @@ impl<'a> Actors<'a> {
                 last += 1;
             }
             pass.set_bind_group(2, group.as_ref().unwrap_or(&bound.group), &[]);
-            pass.draw_indexed(draw.indices.clone(), 0, first..last);
+            pass.draw_indexed(indices.clone(), 0, first..last);
             first = last;
         }
     }

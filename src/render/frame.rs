@@ -114,7 +114,6 @@ pub(crate) fn put_actor(gpu: &mut Block<'_>, of: &ActorState<'_>) {
     gpu.put("bangs_world_row_depth", of_world[2].to_array());
     gpu.put("bangs_hardness", hardness);
     gpu.put("bangs_bias", bias);
-    gpu.put("bangs_place", tile.place);
     gpu.put("bangs_origin", tile.origin);
     gpu.put("bangs_side", tile.side);
     gpu.put("through_opacity", through.map_or(0.0, |t| t.opacity));

@@ -44,6 +44,8 @@ pub(crate) struct Body {
     pub instance: u32,
     /// What stands for itself and for others that cast on it, in its own shadow map: their troupes and instances.
     pub casters: Vec<(usize, u32)>,
+    /// The same of others that cast on its face.
+    pub face_casters: Vec<(usize, u32)>,
     pub world: Mat4,
     /// Share of the key light that arrives.
     key_light: f32,
@@ -109,8 +111,6 @@ struct Scratch {
     numbers: Vec<u32>,
     near: Vec<(f32, usize)>,
     order: Vec<usize>,
-    /// Troupes of what receives and of what casts, and the two themselves.
-    pairs: Vec<((usize, usize), usize, usize)>,
 }
 
 /// Something round, world space.
@@ -338,7 +338,7 @@ impl Bodies {
     /// What stands for what in draws: actors by troupe, shells of coats, and what casts where.
     fn fill_lists(&mut self, to_light: Vec3) {
         let Self { list, troupes, crowd: Some(crowd), world_map, scratch, .. } = self else { return };
-        let Scratch { volumes, faces, numbers, near, order, pairs, .. } = scratch;
+        let Scratch { volumes, faces, numbers, near, order, .. } = scratch;
         let entries = &mut crowd.list;
         entries.clear();
         let instance = |body: &Body, actor: usize, extra: usize| Instance {
@@ -373,11 +373,10 @@ impl Bodies {
                 entries.extend(order.iter().map(|i| instance(&list[*i], *i, list.len())));
             }
             troupe.on_world = first..entries.len() as u32;
-            troupe.face_casters.clear();
         }
-        pairs.clear();
         for i in 0..list.len() {
             list[i].casters.clear();
+            list[i].face_casters.clear();
             if list[i].shadow_layer.is_some() {
                 let own = (list[i].troupe, entries.len() as u32);
                 list[i].casters.push(own);
@@ -391,16 +390,11 @@ impl Bodies {
             }
             if let Some(face) = faces[i] {
                 casting(near, volumes, i, face.head, face.to_light);
-                pairs.extend(near.iter().take(MOST_CASTING).map(|&(_, o)| ((list[i].troupe, list[o].troupe), i, o)));
-            }
-        }
-        pairs.sort();
-        for &((of, by), i, o) in &*pairs {
-            let at = entries.len() as u32;
-            entries.push(instance(&list[o], o, i));
-            match troupes[of].face_casters.last_mut() {
-                Some((troupe, range)) if *troupe == by => range.end = at + 1,
-                _ => troupes[of].face_casters.push((by, at..at + 1)),
+                for &(_, o) in near.iter().take(MOST_CASTING) {
+                    let caster = (list[o].troupe, entries.len() as u32);
+                    list[i].face_casters.push(caster);
+                    entries.push(instance(&list[o], o, i));
+                }
             }
         }
         world_map.rows = ShadowRows::default();
@@ -458,8 +452,9 @@ impl Bodies {
             if troupe.bangs.is_none() {
                 continue;
             }
-            let casters = troupe.face_casters.iter().flat_map(|(_, range)| range.clone());
-            let key = key(None, &mut troupe.instances.clone().chain(casters).map(actor), list);
+            let own = troupe.instances.clone().map(actor);
+            let of = own.clone().flat_map(|i| list[i].face_casters.iter().map(|(_, at)| actor(*at)));
+            let key = key(None, &mut own.chain(of), list);
             if troupe.maps.stale(key).is_some() {
                 stale.faces.push(t);
             }
@@ -530,6 +525,7 @@ impl Body {
             slot,
             instance: 0,
             casters: Vec::new(),
+            face_casters: Vec::new(),
             world: actor.world,
             key_light: actor.key_light,
             bounds: (Vec3::ZERO, Vec3::ZERO),
@@ -562,6 +558,11 @@ impl Body {
         // Maps of shadows show what is cut out.
         self.revisions[1] += 1;
         &mut self.edits
+    }
+
+    /// Its slot in its troupe.
+    pub fn slot(&self) -> u32 {
+        self.slot
     }
 
     /// Layer of its own shadow map.

@@ -35,8 +35,6 @@ pub(crate) struct Troupe {
     pub numbered: Vec<(u32, Range<u32>)>,
     /// What stands for the shells of their coats: the innermost of all of them, then the next.
     pub shells: Range<u32>,
-    /// What stands for others that cast on their faces, by troupe.
-    pub face_casters: Vec<(usize, Range<u32>)>,
     /// What stands for them in the shadow map of the whole stage.
     pub on_world: Range<u32>,
     pub maps: Made<MapsKey, ()>,
@@ -59,7 +57,6 @@ impl Troupe {
             instances: 0..0,
             numbered: Vec::new(),
             shells: 0..0,
-            face_casters: Vec::new(),
             on_world: 0..0,
             maps: Made::not_yet(()),
         }

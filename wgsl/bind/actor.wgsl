@@ -21,9 +21,8 @@ struct Actor {
     key_light: f32,
     // Texels along the tile of its map.
     bangs_side: f32,
-    // First texel of that, and scale and offset from 0..1 of it to 0..1 of all.
+    // First texel of that.
     bangs_origin: vec2f,
-    bangs_place: vec4f,
     // Eyes through hair: opacity, metres, cosines between which it fades.
     through_opacity: f32,
     through_window: f32,

@@ -15,12 +15,6 @@ import package::lib::shadow::{shadow_edge, shadow_place};
 const BANGS_LAYER: i32 = 0;
 const LIDS_LAYER: i32 = 1;
 
-// The same place in the map of all heads.
-fn bangs_in_atlas(actor: u32, at: vec2f) -> vec2f {
-    let place = actors[actor].bangs_place;
-    return at * place.xy + place.zw;
-}
-
 // Place of a point of an actor, character space, in the map of its own bangs.
 fn bangs_from_character(actor: u32, position: vec3f) -> vec3f {
     let a = &actors[actor];

@@ -29,8 +29,8 @@ struct Varying {
     // How much is seen through hair.
     @if(opacity) @location(11) @interpolate(flat) opacity: f32,
     @if(part) @location(12) @interpolate(flat) part: u32,
-    // Place and depth in the map of an actor's bangs.
-    @if(tile) @location(13) tile: vec3f,
+    // Depth in a map that is drawn from a light.
+    @if(depth) @location(13) depth: f32,
     @if(actor) @location(14) @interpolate(flat) actor: u32,
 }
 

@@ -1,5 +1,5 @@
 // Depth of what casts on the face, from the light of the bangs' shadow.
-import package::bind::maps::{bangs_from_character, bangs_from_world, bangs_in_atlas};
+import package::bind::maps::{bangs_from_character, bangs_from_world};
 import package::bind::varying::{Varying, with_attributes};
 import package::bind::vertex::{VertexInput, vertex_of, world_position};
 import package::material::stage_gone;
@@ -14,20 +14,15 @@ fn vs_main(in: VertexInput) -> Varying {
     // What stands before the map's range casts from its front.
     at.z = max(at.z, 0.0);
     var out: Varying;
-    let place = bangs_in_atlas(v.extra, at.xy);
-    out.clip_position = vec4f(place.x * 2.0 - 1.0, 1.0 - place.y * 2.0, at.z, 1.0);
-    out.tile = at;
+    out.clip_position = vec4f(at.x * 2.0 - 1.0, 1.0 - at.y * 2.0, at.z, 1.0);
+    out.depth = at.z;
     return with_attributes(v, out);
 }
 
 @fragment
 fn fs_main(in: Varying) -> @location(0) vec4f {
-    // What lies beyond its tile is in another one.
-    if any(in.tile.xy < vec2f(0.0)) || any(in.tile.xy > vec2f(1.0)) {
-        discard;
-    }
     @if(cut) if stage_gone(in) {
         discard;
     }
-    return vec4f(in.tile.z, 0.0, 0.0, 1.0);
+    return vec4f(in.depth, 0.0, 0.0, 1.0);
 }

@@ -1,5 +1,7 @@
 //! Depth of what casts on the face, seen from the light of the bangs' shadow.
 
+use std::ops::Range;
+
 use glam::{Mat4, Vec3, Vec4};
 
 use super::bangs_near::{self, BangsNearInputs, BangsNearPass};
@@ -9,7 +11,7 @@ use crate::gpu::MAX_TEXTURE_SIDE;
 use crate::render::draw_list::{Actors, Draw};
 use crate::render::material::Composition;
 use crate::render::targets;
-use crate::render::variants::Request;
+use crate::render::variants::{Drawn, Request};
 use crate::scene::Bangs;
 use crate::stage::troupe::Troupe;
 
@@ -49,8 +51,6 @@ pub(crate) struct BangsTile {
     /// First texel, and texels along a side.
     pub origin: [f32; 2],
     pub side: f32,
-    /// What takes 0..1 of the tile to 0..1 of the atlas: scale and offset.
-    pub place: [f32; 4],
 }
 
 /// One layer of the maps as passes draw them.
@@ -150,11 +150,8 @@ impl BangsAtlas {
 
     /// Where the tile of a slot lies.
     pub fn place(&self, slot: u32) -> BangsTile {
-        let texture = self.view.texture();
-        let size = [texture.width(), texture.height()].map(|s| s as f32);
         let origin = [slot % self.columns, slot / self.columns].map(|n| (n * self.stride) as f32);
-        let side = self.side as f32;
-        BangsTile { origin, side, place: [side / size[0], side / size[1], origin[0] / size[0], origin[1] / size[1]] }
+        BangsTile { origin, side: self.side as f32 }
     }
 }
 
@@ -165,7 +162,7 @@ pub(crate) fn map_texture(gpu: &Gpu, side: u32, layers: u32) -> wgpu::TextureVie
 
 /// What draws a material.
 pub(crate) fn request(of: &Composition, colors: bool) -> Request {
-    map_request(of.cut("bangs_shadow", colors, false).with("tile", true), 0.0, Some(FORMAT))
+    map_request(of.cut("bangs_shadow", colors, false).with("depth", true), 0.0, Some(FORMAT))
 }
 
 /// Draws what casts on the faces of a troupe: front hair, clothes, hands, and all of others; then their lids and lashes.
@@ -200,16 +197,58 @@ fn encode_layer(
     let depth = targets::depth(&inputs.atlas.depth, 1.0, wgpu::StoreOp::Discard);
     let mut pass = targets::begin(encoder, "bangs shadow", Some(map), Some(depth), timestamps);
     let casts = |draw: &Draw| if lids { draw.casts_lids } else { draw.casts_on_face };
-    let others = of.face_casters.iter().filter(|_| !lids);
-    let others = others.map(|(other, instances)| (&actors.bodies.troupes[*other], instances.clone(), false));
-    for (troupe, instances, is_own) in std::iter::once((*of, of.instances.clone(), true)).chain(others) {
-        // The map itself cannot be read while it is drawn.
-        actors.bind_without_maps(&mut pass, troupe);
-        let data = troupe.data();
-        for (draw, pipelines) in data.draws.iter().zip(data.picture()).filter(|(draw, _)| !is_own || casts(draw)) {
-            if let Some(bangs) = &pipelines.bangs {
-                actors.record(&mut pass, troupe, draw, bangs, instances.clone());
+    let all: Vec<Vec<Merged<'_>>> = actors.bodies.troupes.iter().map(|t| merged(t, |_| true)).collect();
+    let own = merged(of, casts);
+    let mut bound: *const Troupe = std::ptr::null();
+    let mut bind = |pass: &mut wgpu::RenderPass<'_>, troupe: &Troupe| {
+        if !std::ptr::eq(bound, troupe) {
+            // The map itself cannot be read while it is drawn.
+            actors.bind_without_maps(pass, troupe);
+            bound = troupe;
+        }
+    };
+    for body in of.instances.clone().map(|at| actors.body(at)) {
+        let BangsTile { origin: [x, y], side } = inputs.atlas.place(body.slot());
+        pass.set_viewport(x, y, side, side, 0.0, 1.0);
+        pass.set_scissor_rect(x as u32, y as u32, side as u32, side as u32);
+        bind(&mut pass, of);
+        for draw in &own {
+            actors.record(&mut pass, of, draw.indices.clone(), draw.drawn, body.instance..body.instance + 1);
+        }
+        for &(other, instance) in body.face_casters.iter().filter(|_| !lids) {
+            let troupe = &actors.bodies.troupes[other];
+            bind(&mut pass, troupe);
+            for draw in &all[other] {
+                actors.record(&mut pass, troupe, draw.indices.clone(), draw.drawn, instance..instance + 1);
             }
         }
     }
+}
+
+/// Draws that one pipeline draws together.
+struct Merged<'a> {
+    indices: Range<u32>,
+    drawn: &'a Drawn,
+}
+
+/// What of a character casts.
+fn merged(troupe: &Troupe, casts: impl Fn(&Draw) -> bool) -> Vec<Merged<'_>> {
+    let data = troupe.data();
+    let mut list: Vec<Merged<'_>> = Vec::new();
+    for (draw, pipelines) in data.draws.iter().zip(data.picture()).filter(|(draw, _)| casts(draw)) {
+        let Some(drawn) = &pipelines.bangs else { continue };
+        match list.last_mut() {
+            // What is not cut reads nothing of its material.
+            Some(last)
+                if last.indices.end == draw.indices.start
+                    && last.drawn.bound.is_none()
+                    && drawn.bound.is_none()
+                    && last.drawn.pipeline == drawn.pipeline =>
+            {
+                last.indices.end = draw.indices.end;
+            }
+            _ => list.push(Merged { indices: draw.indices.clone(), drawn }),
+        }
+    }
+    list
 }

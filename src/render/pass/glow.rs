@@ -47,7 +47,7 @@ pub(crate) fn encode(
         let data = troupe.data();
         for (draw, pipelines) in data.draws.iter().zip(data.picture()) {
             if let Some(glow) = &pipelines.glow {
-                actors.record(&mut pass, troupe, draw, glow, troupe.instances.clone());
+                actors.record(&mut pass, troupe, draw.indices.clone(), glow, troupe.instances.clone());
             }
         }
     }
