@@ -44,7 +44,7 @@ impl Pose {
         true
     }
 
-    /// Refuses what is not a pose of this scene. Empty lists are those of rest.
+    /// Refuses what is not a pose of this scene, but for transforms that are not finite. Empty lists are those of rest.
     pub(crate) fn check(&self, scene: &Scene) -> Result<()> {
         let fault = |what: String, message: String| Err(Error::Argument { what, message });
         for (name, count) in [("locals", self.locals.len()), ("morph_weights", self.morph_weights.len())] {
@@ -54,9 +54,6 @@ impl Pose {
             }
         }
         let name = |node: usize| &scene.nodes[node].name;
-        if let Some(at) = self.locals.iter().position(|local| !local.matrix().is_finite()) {
-            return fault(format!("pose.locals[{at}] {:?}", name(at)), "is not finite".to_owned());
-        }
         let is_finite = |weights: &Vec<f32>| weights.iter().all(|w| w.is_finite());
         if let Some(at) = self.morph_weights.iter().position(|w| !is_finite(w)) {
             return fault(format!("pose.morph_weights[{at}] {:?}", name(at)), "is not finite".to_owned());

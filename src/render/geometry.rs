@@ -43,6 +43,17 @@ pub(crate) enum Palette {
     Skin(Vec<(usize, Mat4)>),
 }
 
+impl Palette {
+    /// Nodes of its joints, with `joint_from_mesh` where it is not the identity.
+    pub fn joints(&self) -> impl Iterator<Item = (usize, Option<Mat4>)> {
+        let (rigid, skin) = match self {
+            Self::Rigid(node) => (Some((*node, None)), &[][..]),
+            Self::Skin(joints) => (None, &joints[..]),
+        };
+        rigid.into_iter().chain(skin.iter().map(|(node, bind)| (*node, Some(*bind))))
+    }
+}
+
 /// A primitive under a node.
 pub(crate) struct Part {
     pub material: usize,

@@ -3,12 +3,12 @@
 use std::collections::HashMap;
 
 use glam::{Mat4, Vec3};
+use rayon::prelude::*;
 
 use super::crowd::Crowd;
 use super::troupe::Troupe;
 use super::{Actor, Stage};
 use crate::render::frame::ActorState;
-use crate::render::geometry::Palette;
 use crate::render::looks::Edits;
 use crate::render::made::Made;
 use crate::render::pass::Mark;
@@ -60,6 +60,12 @@ pub(crate) struct Body {
     /// How often the pose, and what is cut out of materials, have become others; no pose has been taken at first.
     revisions: [u64; 2],
     pub maps: Made<MapsKey, ()>,
+    /// Matrices of its nodes, character space; its joints and the weights of its morphs.
+    nodes: Vec<Mat4>,
+    joints: Vec<AffineRows>,
+    weights: Vec<f32>,
+    /// Whether its troupe has not seen these.
+    has_moved: bool,
 }
 
 /// The shadow map of the whole stage.
@@ -101,9 +107,6 @@ struct Cast {
 /// Lists that every frame fills anew, kept so that it allocates nothing.
 #[derive(Debug, Default)]
 struct Scratch {
-    world: Vec<Mat4>,
-    joints: Vec<AffineRows>,
-    weights: Vec<f32>,
     volumes: Vec<Volume>,
     /// By body, where it has them: what the shadow on its face may come through, its eyes, its hair, their number.
     faces: Vec<Option<FaceLight>>,
@@ -134,6 +137,8 @@ struct FaceLight {
     to_light: Vec3,
 }
 
+/// So many actors are posed on all cores; fewer are done before other cores have woken.
+const MANY: usize = 8;
 /// Other actors that cast on one, at most.
 const MOST_CASTING: usize = 16;
 /// How far towards the light something may stand and cast, beyond sizes, metres.
@@ -189,17 +194,24 @@ impl Stage {
             bodies.arrange(renderer, actors);
         }
         let has_others = bodies.troupes.iter_mut().fold(false, |has, troupe| troupe.fit(renderer) | has);
-        let Bodies { list, troupes, scratch, .. } = bodies;
-        for (index, (actor, body)) in actors.iter().zip(&mut *list).enumerate() {
-            body.world = actor.world;
-            body.key_light = actor.key_light;
-            let fault = |e| match e {
-                Error::Argument { what, message } => {
-                    Error::Argument { what: format!("actors[{index}].{what}"), message }
-                }
-                other => other,
-            };
-            body.pose(&mut troupes[body.troupe], actor, scratch).map_err(fault)?;
+        let Bodies { list, troupes, .. } = bodies;
+        let pose = |(index, (actor, body)): (usize, (&Actor, &mut Body))| match body.pose(actor).err()? {
+            Error::Argument { what, message } => {
+                Some(Error::Argument { what: format!("actors[{index}].{what}"), message })
+            }
+            other => Some(other),
+        };
+        let fault = if actors.len() < MANY {
+            actors.iter().zip(&mut *list).enumerate().find_map(pose)
+        } else {
+            actors.par_iter().zip(&mut *list).enumerate().filter_map(pose).find_first(|_| true)
+        };
+        if let Some(fault) = fault {
+            return Err(fault);
+        }
+        for body in list.iter_mut().filter(|body| body.has_moved) {
+            troupes[body.troupe].pose(body.slot, &body.joints, &body.weights);
+            body.has_moved = false;
         }
         let to_light = lights.directional.to_light.normalize_or(Vec3::Z);
         bodies.fit(renderer, has_others, to_light, self.focus, self.casts_on_world);
@@ -536,6 +548,10 @@ impl Body {
             edits: Edits::default(),
             revisions: [0; 2],
             maps: Made::not_yet(()),
+            nodes: Vec::new(),
+            joints: Vec::new(),
+            weights: Vec::new(),
+            has_moved: false,
         }
     }
 
@@ -570,33 +586,46 @@ impl Body {
         self.shadow_layer
     }
 
-    /// Takes the pose of an actor.
-    fn pose(&mut self, troupe: &mut Troupe, actor: &Actor, scratch: &mut Scratch) -> Result<()> {
+    /// Takes place and pose of an actor.
+    fn pose(&mut self, actor: &Actor) -> Result<()> {
         let CharacterData { scene, rig, looks, .. } = &*self.character.0;
         let pose = &actor.pose;
         pose.check(scene)?;
-        let Scratch { world, joints, weights, .. } = scratch;
-        scene.world_from_nodes_into(&pose.locals, world);
-        let matrix = |node: usize| world.get(node).copied().unwrap_or(Mat4::IDENTITY);
-        joints.clear();
-        for palette in &rig.palettes {
-            match palette {
-                Palette::Rigid(node) => joints.push(matrix(*node).into()),
-                Palette::Skin(skin) => {
-                    joints.extend(skin.iter().map(|(node, bind)| AffineRows::from(matrix(*node) * *bind)))
-                }
-            }
+        scene.world_from_nodes_into(&pose.locals, &mut self.nodes);
+        if let Some(at) = self.nodes.iter().position(|node| !node.is_finite()) {
+            // Parents stand before their children: it is the first one's own fault.
+            let what = format!("pose.locals[{at}] {:?}", scene.nodes[at].name);
+            return Err(Error::Argument { what, message: "is not finite".to_owned() });
         }
-        weights.clear();
-        for &(node, targets) in &rig.weights {
-            let of_node = pose.morph_weights.get(node).map_or(&[] as &[f32], Vec::as_slice);
-            weights.extend((0..targets).map(|t| of_node.get(t).copied().unwrap_or(0.0)));
-        }
+        self.world = actor.world;
+        self.key_light = actor.key_light;
+        let matrix = |node: usize| self.nodes.get(node).copied().unwrap_or(Mat4::IDENTITY);
         let moved = |bone: Option<(usize, Mat4)>| bone.map_or(Mat4::IDENTITY, |(node, inverse)| matrix(node) * inverse);
         (self.head, self.hips) = (moved(rig.head), moved(rig.hips));
-        if troupe.pose(self.slot, joints, weights, self.revisions[0] == 0) {
+        // Each is compared as it is written.
+        let mut is_other = self.revisions[0] == 0;
+        let joints = rig.palettes.iter().flat_map(|palette| palette.joints());
+        self.joints.resize(self.character.0.source.joint_count(), AffineRows::default());
+        for (last, (node, bind)) in self.joints.iter_mut().zip(joints) {
+            let joint = AffineRows::from(bind.map_or_else(|| matrix(node), |bind| matrix(node) * bind));
+            is_other |= *last != joint;
+            *last = joint;
+        }
+        self.weights.resize(self.character.0.source.weight_count(), 0.0);
+        let mut at = 0;
+        for &(node, targets) in &rig.weights {
+            let of_node = pose.morph_weights.get(node).map_or(&[] as &[f32], Vec::as_slice);
+            for target in 0..targets {
+                let weight = of_node.get(target).copied().unwrap_or(0.0);
+                is_other |= self.weights[at] != weight;
+                self.weights[at] = weight;
+                at += 1;
+            }
+        }
+        if is_other {
             self.revisions[0] += 1;
-            self.bounds = bounds(&rig.moved, joints);
+            self.has_moved = true;
+            self.bounds = bounds(&rig.moved, &self.joints);
         }
         let (low, high) = self.bounds;
         self.volume = Volume::of(low, high, &self.world);

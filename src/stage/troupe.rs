@@ -111,20 +111,14 @@ impl Troupe {
         is_other
     }
 
-    /// Takes the pose of a slot; whether it is another than before.
-    pub fn pose(&mut self, slot: u32, joints: &[AffineRows], weights: &[f32], is_new: bool) -> bool {
-        let at = slot as usize;
-        let own_joints = &mut self.joints[at * joints.len()..(at + 1) * joints.len()];
-        let own_weights = &mut self.weights[at * weights.len()..(at + 1) * weights.len()];
-        if !is_new && own_joints == joints && own_weights == weights {
-            return false;
-        }
-        own_joints.copy_from_slice(joints);
-        own_weights.copy_from_slice(weights);
+    /// Takes the pose of a slot.
+    pub fn pose(&mut self, slot: u32, joints: &[AffineRows], weights: &[f32]) {
+        let of = |count: usize| slot as usize * count..(slot as usize + 1) * count;
+        self.joints[of(joints.len())].copy_from_slice(joints);
+        self.weights[of(weights.len())].copy_from_slice(weights);
         if !self.moved.contains(&slot) {
             self.moved.push(slot);
         }
-        true
     }
 
     /// Sends the poses that have changed, slots that follow each other together.
