@@ -6,6 +6,8 @@ use crate::Gpu;
 
 /// Size of a buffer that bytes wait in: hundreds of frames of a few characters.
 const WAITING_BYTES: u64 = 1 << 20;
+/// Parts of a buffer that bytes of a size make at least: several frames of a crowd.
+const PARTS: u64 = 8;
 
 /// A buffer that bytes wait in until the commands are run; another one follows when it is full, since nobody here knows when
 /// an application submits.
@@ -28,7 +30,7 @@ impl Uploads {
             return;
         }
         if self.used + size > self.waiting.size() {
-            self.waiting = waiting(&self.gpu, WAITING_BYTES.max(size));
+            self.waiting = waiting(&self.gpu, WAITING_BYTES.max(size * PARTS));
             self.used = 0;
         }
         self.gpu.queue.write_buffer(&self.waiting, self.used, bytes);

@@ -234,9 +234,11 @@ struct Merged<'a> {
 /// What of a character casts.
 fn merged(troupe: &Troupe, casts: impl Fn(&Draw) -> bool) -> Vec<Merged<'_>> {
     let data = troupe.data();
+    let draws = data.draws.iter().zip(data.picture()).filter(|(draw, _)| casts(draw));
+    let mut draws: Vec<_> = draws.filter_map(|(draw, p)| Some((draw, p.bangs.as_ref()?))).collect();
+    draws.sort_by_key(|(draw, drawn)| (drawn.bound.is_some(), draw.indices.start));
     let mut list: Vec<Merged<'_>> = Vec::new();
-    for (draw, pipelines) in data.draws.iter().zip(data.picture()).filter(|(draw, _)| casts(draw)) {
-        let Some(drawn) = &pipelines.bangs else { continue };
+    for (draw, drawn) in draws {
         match list.last_mut() {
             // What is not cut reads nothing of its material.
             Some(last)
