@@ -29,7 +29,7 @@ fn benches(c: &mut Criterion) {
     println!("{name} on {}", gpu.info().name);
     c.bench_function("import", |b| b.iter(load));
     c.bench_function("upload", |b| {
-        b.iter(|| Renderer::new(&gpu).and_then(|mut r| r.upload(&scene)).expect("uploads"));
+        b.iter(|| Renderer::new(&gpu).and_then(|r| r.upload(&scene)).expect("uploads"));
     });
     for side in [512, 1024] {
         let view = View::framed(&scene, Framing::Portrait, 0.0, [side; 2]);

@@ -9,7 +9,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let [_, model, out] = args.as_slice() else { return Err("usage: hello MODEL.vrm OUT.png".into()) };
     let scene = import::load(Path::new(model))?;
     let gpu = Gpu::headless(None)?;
-    let mut renderer = Renderer::new(&gpu)?;
+    let renderer = Renderer::new(&gpu)?;
     let mut stage = Stage::of([Actor::new(&renderer.upload(&scene)?)]);
     let view = View::framed(&scene, Framing::Portrait, 0.4, [1024, 1024]);
     let picture = renderer.render(&mut stage, &view)?;

@@ -34,7 +34,7 @@ fn main() -> Result<(), Error> {
     // The characters: their renderer draws into the host's formats.
     let gpu = Gpu::headless(None)?;
     let output = Output { format: FORMAT, samples: SAMPLES, depth: Some(DEPTH) };
-    let mut renderer = Renderer::with_output(&gpu, output)?;
+    let renderer = Renderer::with_output(&gpu, output)?;
     let mut scene = import::load_bytes("hikage.vrm", &hikage_character::file(), None, &import::Limits::default())?;
     Look::Anime { face: None }.apply(&mut scene);
     scene.post = None;

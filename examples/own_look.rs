@@ -46,7 +46,7 @@ fn main() -> Result<(), Error> {
         material.set_own(Some(Frost::default()));
     }
     let gpu = Gpu::headless(None)?;
-    let mut renderer = Renderer::new(&gpu)?;
+    let renderer = Renderer::new(&gpu)?;
     let mut stage = Stage::of([Actor::new(&renderer.upload(&scene)?)]);
     let view = View::framed(&scene, Framing::Full, 0.4, [768, 768]);
     picture::write_png("frost.png", &renderer.render(&mut stage, &view)?)?;

@@ -7,7 +7,7 @@ use hikage::{Actor, Error, Gpu, Look, Renderer, Stage, View, import, picture, sc
 
 fn main() -> Result<(), Error> {
     let gpu = Gpu::headless(None)?;
-    let mut renderer = Renderer::new(&gpu)?;
+    let renderer = Renderer::new(&gpu)?;
     let mut characters = Vec::new();
     for model in std::env::args().skip(1) {
         let mut scene = import::load(model)?;

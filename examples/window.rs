@@ -100,7 +100,7 @@ impl Shown {
         let formats = surface.get_capabilities(&adapter).formats;
         config.format = formats.into_iter().find(wgpu::TextureFormat::is_srgb).unwrap_or(config.format);
         surface.configure(&gpu.device, &config);
-        let mut renderer = Renderer::with_output(&gpu, Output { format: config.format, ..Output::default() })?;
+        let renderer = Renderer::with_output(&gpu, Output { format: config.format, ..Output::default() })?;
         let stage = Stage::of([Actor::new(&renderer.upload(scene)?)]);
         let orbit = Orbit::around(scene);
         Ok(Self { window, surface, config, gpu, renderer, stage, orbit, start: Instant::now() })

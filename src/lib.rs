@@ -10,7 +10,7 @@
 //! # fn main() -> Result<(), hikage::Error> {
 //! let scene = import::load("character.vrm")?;
 //! let gpu = Gpu::headless(None)?;
-//! let mut renderer = Renderer::new(&gpu)?;
+//! let renderer = Renderer::new(&gpu)?;
 //! let mut stage = Stage::of([Actor::new(&renderer.upload(&scene)?)]);
 //! let view = View::framed(&scene, Framing::Portrait, 0.4, [1024, 1024]);
 //! let image = renderer.render(&mut stage, &view)?;

@@ -120,7 +120,7 @@ impl Bench {
             }
         }
         let output = Output { samples: options.samples, ..Output::default() };
-        let mut renderer = Renderer::with_output(gpu, output)?;
+        let renderer = Renderer::with_output(gpu, output)?;
         let character = renderer.upload(scene)?;
         gpu.wait(TIMEOUT)?;
         // In rows behind each other, a metre apart.

@@ -1,12 +1,13 @@
 //! A character on the GPU: what all actors of it share.
 
 use std::collections::BTreeMap;
-use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock};
 
 use super::Output;
 use super::draw_list::{self, Draw, Pipelines};
 use super::geometry::Rig;
 use super::looks::Looks;
+use super::made::lock;
 use super::pass::bangs_shadow::BangsFit;
 use super::pass::deform::DeformSource;
 use super::pass::prepass;
@@ -222,9 +223,4 @@ impl CharacterData {
         }
         Ok(self.geometry.get().map_or(&[], Vec::as_slice))
     }
-}
-
-/// A list that a panic elsewhere has not made worse.
-fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -1,152 +1,447 @@
-//! Numbers of a view and of a character for shaders, by the structs in `wgsl/bind`.
+//! A frame: its passes in their order, and what they draw into.
 
-use glam::{Mat4, Vec3, Vec4};
+use wgpu::BindingResource;
 
-use super::layout::{Block, Filled};
-use super::pass::bangs_shadow::{BangsFit, BangsTile};
-use super::pass::shadow::ShadowRows;
-use super::{Background, View};
-use crate::Stage;
-use crate::scene::{EyesThrough, MAX_PUNCTUAL_LIGHTS, Post, PunctualLight, ToneCurve};
+use super::character::Shown as Drawables;
+use super::draw_list::{self, Actors};
+use super::layout::Filled;
+use super::numbers::{frame_numbers, put_view};
+use super::pass::bangs_shadow::{self, BangsShadowInputs};
+use super::pass::bloom::{BloomChain, BloomInputs, BloomPass};
+use super::pass::floor::FloorPass;
+use super::pass::glow::{self, GlowInputs};
+use super::pass::post::{PostInputs, PostPass};
+use super::pass::prepass::{self, PrepassInputs};
+use super::pass::shadow::{self, ShadowInputs};
+use super::pass::{HDR_FORMAT, Picture, Sight, eyes_through, fluff, opaque, outline, transparent};
+use super::targets::{self, ColorTargets, PrepassTargets};
+use super::uploads::Uploads;
+use super::{
+    Background, Channel, Clock, FRAME_TIMEOUT, Layouts, Output, Renderer, Target, Timed, View, bind, readback,
+};
+use crate::color::Srgb;
+use crate::scene::{Image, Post};
+use crate::stage::body::Bodies;
+use crate::{Error, Gpu, Result, Stage};
 
-/// `Frame` of `wgsl/bind/frame.wgsl`.
-pub(crate) fn frame_numbers() -> Filled {
-    Filled::of("bind/frame", "Frame")
+/// What frames are drawn with, and into.
+#[derive(Debug)]
+pub(super) struct Frame {
+    uploads: Uploads,
+    numbers: Filled,
+    uniform: wgpu::Buffer,
+    /// Group 0 without what a prepass draws.
+    group: wgpu::BindGroup,
+    // What few pictures need is made when one does.
+    bloom: Option<BloomPass>,
+    post: Option<PostPass>,
+    color_targets: Option<ColorTargets>,
+    post_targets: Option<PostTargets>,
+    /// With the group 0 that reads them.
+    prepass_targets: Option<(PrepassTargets, wgpu::BindGroup)>,
+    /// Of pictures that are read back.
+    pub picture: Option<wgpu::Texture>,
 }
 
-/// `Actor` of `wgsl/bind/actor.wgsl`.
-pub(crate) fn actor_numbers() -> Filled {
-    Filled::of("bind/actor", "Actor")
+/// What a frame shows.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Shown<'a> {
+    /// The finished picture.
+    Picture,
+    /// A debug channel of shading.
+    Channel(&'a str),
+    /// The floor of benches.
+    Floor(&'a FloorPass),
 }
 
-/// `PostNumbers` of `wgsl/pass/post.wgsl`.
-pub(crate) fn post_numbers() -> Filled {
-    Filled::of("pass/post", "PostNumbers")
-}
+impl<'a> Shown<'a> {
+    /// What its shaders are made for.
+    fn sight(self, stage: &Stage) -> Sight<'a> {
+        let channel = match self {
+            Self::Channel(channel) => Some(channel),
+            Self::Picture | Self::Floor(_) => None,
+        };
+        Sight { channel, punctual: !stage.lights.punctual.is_empty(), hdr: self.post(stage).is_some() }
+    }
 
-/// Writes the numbers of a view of a stage.
-pub(crate) fn put_view(gpu: &mut Block<'_>, view: &View, stage: &Stage) {
-    let aspect = view.size[0] as f32 / view.size[1] as f32;
-    let camera = &view.camera;
-    let view_from_world = camera.view_from_world();
-    let lights = &stage.lights;
-    let directional = &lights.directional;
-    let punctual: [_; MAX_PUNCTUAL_LIGHTS] =
-        std::array::from_fn(|i| lights.punctual.get(i).map_or([[0.0; 4]; 3], punctual));
-    gpu.put("clip_from_world", (camera.clip_from_view(aspect) * view_from_world).to_cols_array_2d());
-    gpu.put("view_from_world", view_from_world.to_cols_array_2d());
-    gpu.put("eye", camera.eye.to_array());
-    gpu.put("time_s", stage.time_s);
-    gpu.put("to_light", directional.to_light.normalize_or(Vec3::Z).to_array());
-    gpu.put("aspect", aspect);
-    gpu.put("light_color", directional.color.scaled(directional.intensity).0);
-    gpu.put("punctual_count", lights.punctual.len().min(MAX_PUNCTUAL_LIGHTS) as u32);
-    gpu.put("ambient_sky", lights.ambient.sky.0);
-    gpu.put("near", camera.near);
-    gpu.put("ambient_ground", lights.ambient.ground.0);
-    gpu.put("coolness", lights.coolness());
-    gpu.put("px_per_m", view.px_per_m(stage.places()));
-    gpu.put("punctual", punctual);
-}
-
-/// A `PunctualLight`: three rows of a vector and a number.
-fn punctual(light: &PunctualLight) -> [[f32; 4]; 3] {
-    let (direction, spot_scale, spot_offset) = light.spot.map_or((Vec3::Z, 0.0, 1.0), |spot| {
-        // KHR_lights_punctual, "Inner and Outer Cone Angles".
-        let outer_cos = spot.outer_rad.cos();
-        let scale = 1.0 / (spot.inner_rad.cos() - outer_cos).max(1e-3);
-        (spot.direction, scale, -outer_cos * scale)
-    });
-    let color = Vec3::from(light.color.scaled(light.intensity).0);
-    [light.position.extend(light.range), color.extend(spot_scale), direction.extend(spot_offset)].map(|r| r.to_array())
-}
-
-/// Where an actor is, and how the light falls on it.
-pub(crate) struct ActorState<'a> {
-    /// Moves the head from its rest to the pose.
-    pub head: Mat4,
-    /// Middle of the head at rest, character space.
-    pub head_middle: Vec3,
-    pub bangs: Option<&'a BangsFit>,
-    pub tile: BangsTile,
-    pub through: Option<EyesThrough>,
-    /// In her space.
-    pub to_light: Vec3,
-    pub from_world: Mat4,
-    pub shadow: ShadowRows,
-    /// Share of the key light that arrives.
-    pub key_light: f32,
-}
-
-impl ActorState<'_> {
-    /// What stands for the whole stage: its shadow map.
-    pub fn of_stage(shadow: ShadowRows) -> Self {
-        Self {
-            head: Mat4::IDENTITY,
-            head_middle: Vec3::ZERO,
-            bangs: None,
-            tile: BangsTile::default(),
-            through: None,
-            to_light: Vec3::Z,
-            from_world: Mat4::IDENTITY,
-            shadow,
-            key_light: 1.0,
-        }
+    /// What is done to the whole of it.
+    fn post(self, stage: &Stage) -> Option<Post> {
+        stage.post.filter(|_| matches!(self, Self::Picture))
     }
 }
 
-/// Writes the numbers of an actor.
-pub(crate) fn put_actor(gpu: &mut Block<'_>, of: &ActorState<'_>) {
-    let ActorState { head, bangs, tile, through, shadow, .. } = of;
-    let rows = bangs.map_or([Vec4::ZERO; 3], |b| b.rows(*head, of.to_light));
-    let [hardness, bias] = bangs.map_or([0.0; 2], BangsFit::test);
-    let of_world = rows.map(|row| of.from_world.transpose() * row);
-    // A bone that is scaled to nothing has no rotation.
-    let axis = |axis: Vec3| head.transform_vector3(axis).normalize_or(axis).to_array();
-    gpu.put("face_left", axis(Vec3::X));
-    gpu.put("face_up", axis(Vec3::Y));
-    gpu.put("face_forward", axis(Vec3::Z));
-    gpu.put("bangs_row_u", rows[0].to_array());
-    gpu.put("bangs_row_v", rows[1].to_array());
-    gpu.put("bangs_row_depth", rows[2].to_array());
-    gpu.put("bangs_world_row_u", of_world[0].to_array());
-    gpu.put("bangs_world_row_v", of_world[1].to_array());
-    gpu.put("bangs_world_row_depth", of_world[2].to_array());
-    gpu.put("bangs_hardness", hardness);
-    gpu.put("bangs_bias", bias);
-    gpu.put("bangs_origin", tile.origin);
-    gpu.put("bangs_side", tile.side);
-    gpu.put("through_opacity", through.map_or(0.0, |t| t.opacity));
-    gpu.put("through_window", through.map_or(0.0, |t| t.window_m));
-    gpu.put("through_fade_yaw", through.map_or([0.0; 2], |t| t.fade_yaw_rad));
-    gpu.put("through_fade_pitch", through.map_or([0.0; 2], |t| t.fade_pitch_rad));
-    gpu.put("head", head.transform_point3(of.head_middle).to_array());
-    gpu.put("shadow_right", shadow.right.to_array());
-    gpu.put("shadow_scale", shadow.scale);
-    gpu.put("shadow_up", shadow.up.to_array());
-    gpu.put("shadow_bias", shadow.bias);
-    gpu.put("shadow_to_light", shadow.to_light.to_array());
-    gpu.put("shadow_spread", shadow.spread);
-    gpu.put("shadow_middle", shadow.middle.to_array());
-    gpu.put("key_light", of.key_light);
-    gpu.put("shadow_layer", shadow.layer.map_or(-1.0, |layer| layer as f32));
+impl Frame {
+    pub fn new(gpu: &Gpu, layouts: &Layouts) -> Self {
+        let numbers = frame_numbers();
+        let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
+        let uniform = bind::buffer(gpu, "frame", numbers.size(), usage);
+        Self {
+            uploads: Uploads::new(gpu),
+            group: frame_group(gpu, layouts, &uniform, &PrepassTargets::new(gpu, [1, 1], false)),
+            numbers,
+            uniform,
+            bloom: None,
+            post: None,
+            color_targets: None,
+            post_targets: None,
+            prepass_targets: None,
+            picture: None,
+        }
+    }
+
+    /// What views share. `clock` times its passes.
+    pub fn encode_shared(
+        &mut self,
+        r: &Renderer,
+        encoder: &mut wgpu::CommandEncoder,
+        stage: &mut Stage,
+        with_maps: bool,
+        clock: &Clock,
+    ) -> Result<()> {
+        stage.embody(r)?;
+        let gpu = r.gpu().clone();
+        // Maps are drawn from lights: of the frame they read the time alone.
+        self.send_view(encoder, stage, &View::default());
+        stage.bodies.send(&gpu, &mut self.uploads, encoder, stage.lights.directional.to_light);
+        // Skinned and morphed vertices; only where the pose has changed.
+        self.encode_deform(r, encoder, &mut stage.bodies, clock);
+        if with_maps {
+            // What casts on faces, from the light of that shadow, and on everybody from the key light; only where a pose, the
+            // light or a place has changed.
+            self.encode_maps(r, encoder, stage, clock)?;
+        }
+        Ok(())
+    }
+
+    /// The frame of a view. `clock` times its passes.
+    pub fn encode(
+        &mut self,
+        r: &Renderer,
+        encoder: &mut wgpu::CommandEncoder,
+        stage: &Stage,
+        view: &View,
+        target: Target<'_>,
+        shown: Shown<'_>,
+        clock: &Clock,
+    ) -> Result<()> {
+        let post = shown.post(stage);
+        let pipelines = self.begin_view(r, encoder, stage, view, shown)?;
+        if !matches!(shown, Shown::Floor(_)) {
+            // Depth of all surfaces, and their normals and parts, where a material reads them.
+            self.encode_prepass(r, encoder, stage, clock)?;
+        }
+        // Light that blooms, and how far it spreads.
+        self.encode_glow(encoder, stage, post, clock);
+        // One colour pass: opaque, outlines and transparent share their targets, so samples are resolved once.
+        let mut pass = self.begin_color_pass(r, encoder, view, target, post, shown, clock);
+        self.record_surfaces(&mut pass, stage, view, shown, &pipelines);
+        drop(pass);
+        // Bloom, tone curve, background, smooth edges.
+        self.encode_post(encoder, view, target.color, post, clock);
+        Ok(())
+    }
+
+    /// Every draw of the colour pass.
+    fn record_surfaces(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        stage: &Stage,
+        view: &View,
+        shown: Shown<'_>,
+        pipelines: &[Drawables],
+    ) {
+        let Some(actors) = actors(stage, self.color_frame_group(stage)) else { return };
+        if let Shown::Floor(floor) = shown {
+            return floor.encode(pass, &actors);
+        }
+        // Body, face, hair.
+        opaque::encode(pass, &actors, pipelines);
+        // Lines around them, hidden where a surface is nearer.
+        outline::encode(pass, &actors, pipelines);
+        // Coats of short hair over both.
+        fluff::encode(pass, &actors, pipelines, view.px_per_m(stage.places()));
+        // Eyes and brows through the bangs.
+        eyes_through::encode(pass, &actors, pipelines);
+        // What is seen through, far before near.
+        let order = draw_list::transparent_order(&actors.bodies.list, view.camera.eye);
+        transparent::encode(pass, &actors, pipelines, &order);
+    }
+
+    /// Sends the numbers of a view.
+    fn send_view(&mut self, encoder: &mut wgpu::CommandEncoder, stage: &Stage, view: &View) {
+        let numbers = self.numbers.fill(|numbers| put_view(numbers, view, stage));
+        self.uploads.write(encoder, &self.uniform, 0, numbers);
+    }
+
+    /// Sends what changes with the view; makes targets of a new size, and what shows its like for the first time.
+    fn begin_view(
+        &mut self,
+        r: &Renderer,
+        encoder: &mut wgpu::CommandEncoder,
+        stage: &Stage,
+        view: &View,
+        shown: Shown<'_>,
+    ) -> Result<Vec<Drawables>> {
+        if !stage.bodies.are_of(&stage.actors) {
+            let message = "has other actors than when it was prepared; please prepare it before it is drawn".to_owned();
+            return Err(Error::Argument { what: "stage".to_owned(), message });
+        }
+        let gpu = r.gpu().clone();
+        self.send_view(encoder, stage, view);
+        match shown.post(stage) {
+            Some(post) => self.fit_post(r, view.size, post)?,
+            None if self.color_targets.as_ref().is_none_or(|t| t.size != view.size) => {
+                self.color_targets = Some(ColorTargets::new(&gpu, view.size, r.output));
+            }
+            None => {}
+        }
+        let has_surfaces = has_surfaces(stage);
+        let fits = |t: &PrepassTargets| t.size == view.size && (t.has_surfaces || !has_surfaces);
+        if has_prepass(stage) && !self.prepass_targets.as_ref().is_some_and(|(t, _)| fits(t)) {
+            let targets = PrepassTargets::new(&gpu, view.size, has_surfaces);
+            let group = frame_group(&gpu, &r.layouts, &self.uniform, &targets);
+            self.prepass_targets = Some((targets, group));
+        }
+        let picture = Picture::new(&gpu, r.output, shown.sight(stage));
+        stage.bodies.troupes.iter().map(|troupe| troupe.data().shown(&r.variants, &picture)).collect()
+    }
+
+    fn encode_deform(&self, r: &Renderer, encoder: &mut wgpu::CommandEncoder, bodies: &mut Bodies, clock: &Clock) {
+        if bodies.troupes.iter().any(|troupe| !troupe.moved.is_empty()) {
+            r.deform.encode(encoder, &mut bodies.troupes, clock.compute(Timed::Deform));
+        }
+    }
+
+    fn encode_maps(
+        &self,
+        r: &Renderer,
+        encoder: &mut wgpu::CommandEncoder,
+        stage: &mut Stage,
+        clock: &Clock,
+    ) -> Result<()> {
+        let stale = stage.bodies.stale_maps(stage.lights.directional.to_light, stage.time_s);
+        let Some(actors) = actors(stage, &self.group) else { return Ok(()) };
+        let bodies = actors.bodies;
+        for (n, t) in stale.faces.iter().enumerate() {
+            // The first one's time stands for all.
+            let clock = clock.render(Timed::BangsShadow).filter(|_| n == 0);
+            let of = &bodies.troupes[*t];
+            if let (Some(atlas), Some(reduce)) = (&of.bangs, r.bangs_near.get()) {
+                bangs_shadow::encode(encoder, &BangsShadowInputs { actors, reduce, atlas, of }, clock);
+            }
+        }
+        let Some(map) = &bodies.shadow else { return Ok(()) };
+        for (n, i) in stale.shadows.iter().enumerate() {
+            let clock = clock.render(Timed::Shadow).filter(|_| n == 0);
+            let body = &bodies.list[*i];
+            let Some(layer) = body.shadow_layer() else { continue };
+            let drawn = &|troupe: usize, draw: usize| bodies.troupes[troupe].data().picture()[draw].shadow.as_ref();
+            let casters = body.casters.iter().map(|&(troupe, at)| (troupe, at..at + 1));
+            shadow::encode(encoder, ShadowInputs { actors, map, layer, drawn }, casters, clock);
+        }
+        if let Some(layer) = bodies.world_map.layer.filter(|_| stale.world) {
+            let all = bodies.troupes.iter().map(|t| t.data().world_shadows(&r.variants));
+            let all = all.collect::<Result<Vec<_>>>()?;
+            let drawn = &|troupe: usize, draw: usize| all[troupe][draw].as_ref();
+            let casters = bodies.troupes.iter().map(|t| t.on_world.clone()).enumerate();
+            shadow::encode(encoder, ShadowInputs { actors, map, layer, drawn }, casters, None);
+        }
+        Ok(())
+    }
+
+    fn encode_prepass(
+        &self,
+        r: &Renderer,
+        encoder: &mut wgpu::CommandEncoder,
+        stage: &Stage,
+        clock: &Clock,
+    ) -> Result<()> {
+        let Some(actors) = actors(stage, &self.group).filter(|_| has_prepass(stage)) else { return Ok(()) };
+        if let Some((targets, _)) = &self.prepass_targets {
+            let surfaces = has_surfaces(stage);
+            let depths = actors.bodies.troupes.iter().map(|t| t.data().depths(&r.variants, surfaces));
+            let depths = depths.collect::<Result<Vec<_>>>()?;
+            let drawn = &|troupe: usize, draw: usize| depths[troupe][draw].as_ref();
+            let inputs = PrepassInputs { actors, targets, surfaces, drawn };
+            prepass::encode(encoder, inputs, clock.render(Timed::Prepass));
+        }
+        Ok(())
+    }
+
+    fn encode_glow(&self, encoder: &mut wgpu::CommandEncoder, stage: &Stage, post: Option<Post>, clock: &Clock) {
+        let targets = self.post_targets.as_ref().filter(|_| post.is_some());
+        if let (Some(PostTargets { light: Some((light, chain)), .. }), Some(bloom)) = (targets, &self.bloom)
+            && let Some(actors) = actors(stage, self.color_frame_group(stage))
+        {
+            glow::encode(encoder, &GlowInputs { actors, light }, clock.render(Timed::Glow));
+            bloom.encode(encoder, &BloomInputs { chain });
+        }
+    }
+
+    /// `post`: it is finished by [`Renderer::encode_post`].
+    fn begin_color_pass<'a>(
+        &self,
+        r: &Renderer,
+        encoder: &'a mut wgpu::CommandEncoder,
+        view: &View,
+        target: Target<'_>,
+        post: Option<Post>,
+        shown: Shown<'_>,
+        clock: &Clock,
+    ) -> wgpu::RenderPass<'a> {
+        use wgpu::{LoadOp, Operations, StoreOp};
+        let post = self.post_targets.as_ref().filter(|_| post.is_some());
+        let own = post.map_or(self.color_targets.as_ref(), |p| Some(&p.color));
+        let color = post.map_or(target.color, |p| &p.picture);
+        let clear = match shown {
+            // The background comes last.
+            _ if post.is_some() => wgpu::Color::TRANSPARENT,
+            Shown::Channel(_) => Background::Color(Srgb([0; 3])).clear_color(r.output),
+            _ => view.background.clear_color(r.output),
+        };
+        // A host resolves its samples itself.
+        let multisampled = own.filter(|_| target.depth.is_none()).and_then(|t| t.multisampled.as_ref());
+        let load = if target.keeps_color {
+            LoadOp::Load
+        } else {
+            LoadOp::Clear(clear)
+        };
+        // Samples that are resolved need not be kept; what is a host's is.
+        let store = if multisampled.is_some() {
+            StoreOp::Discard
+        } else {
+            StoreOp::Store
+        };
+        let depth = target.depth.map(|depth| (depth, LoadOp::Load, StoreOp::Store));
+        let depth = depth.or_else(|| own.map(|t| (&t.depth, LoadOp::Clear(0.0), StoreOp::Discard)));
+        let has_stencil = r.output.depth_format(r.gpu()).has_stencil_aspect();
+        // Whatever a host's stencil holds, marks begin with none.
+        let stencil = Operations { load: LoadOp::Clear(0), store: StoreOp::Discard };
+        encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("colour"),
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view: multisampled.unwrap_or(color),
+                depth_slice: None,
+                resolve_target: multisampled.map(|_| color),
+                ops: Operations { load, store },
+            })],
+            depth_stencil_attachment: depth.map(|(view, load, store)| wgpu::RenderPassDepthStencilAttachment {
+                view,
+                depth_ops: Some(Operations { load, store }),
+                stencil_ops: has_stencil.then_some(stencil),
+            }),
+            timestamp_writes: clock.render(Timed::Color),
+            ..Default::default()
+        })
+    }
+
+    /// Group 0 of the colour pass: with what the prepass drew where a material reads it.
+    fn color_frame_group(&self, stage: &Stage) -> &wgpu::BindGroup {
+        let drawn = self.prepass_targets.as_ref().filter(|_| has_prepass(stage));
+        drawn.map_or(&self.group, |(_, group)| group)
+    }
+
+    fn encode_post(
+        &mut self,
+        encoder: &mut wgpu::CommandEncoder,
+        view: &View,
+        target: &wgpu::TextureView,
+        post: Option<Post>,
+        clock: &Clock,
+    ) {
+        let Self { uploads, post: pass, post_targets, .. } = self;
+        if let (Some(post), Some(targets), Some(pass)) = (post, post_targets, pass) {
+            let inputs = PostInputs { post, background: view.background, group: &targets.group, target };
+            pass.encode(uploads, encoder, &inputs, clock.render(Timed::Post));
+        }
+    }
+
+    /// Makes what a picture that is finished by [`PostPass`] is drawn into, where there is none of this size and kind.
+    fn fit_post(&mut self, r: &Renderer, size: [u32; 2], post: Post) -> Result<()> {
+        let gpu = r.gpu().clone();
+        if self.post.is_none() {
+            self.post = Some(PostPass::new(&r.variants, r.output)?);
+        }
+        if post.bloom.is_some() && self.bloom.is_none() {
+            self.bloom = Some(BloomPass::new(&r.variants)?);
+        }
+        let Self { bloom, post: Some(pass), post_targets, .. } = self else { return Ok(()) };
+        pass.fit(&r.variants, post)?;
+        let levels = post.bloom.map(|b| b.levels(size[1]));
+        if post_targets.as_ref().is_some_and(|t| t.color.size == size && t.levels == levels) {
+            return Ok(());
+        }
+        let picture = targets::sampled(&gpu, "picture", size, HDR_FORMAT);
+        let light = levels.zip(bloom.as_ref()).map(|(levels, bloom)| {
+            let glow = glow::target(&gpu, size);
+            let chain = bloom.chain(&gpu, &glow, levels);
+            (glow, chain)
+        });
+        // Without bloom its strength is 0, and any picture will do.
+        let spread = light.as_ref().map_or(&picture, |(glow, _)| glow);
+        *post_targets = Some(PostTargets {
+            color: ColorTargets::new(&gpu, size, Output { format: HDR_FORMAT, ..r.output }),
+            group: pass.group(&gpu, &picture, spread),
+            levels,
+            picture,
+            light,
+        });
+        Ok(())
+    }
+
+    /// Renders one of the prepass's channels as a picture.
+    pub fn render_geometry(&mut self, r: &Renderer, stage: &mut Stage, view: &View) -> Result<Image> {
+        let gpu = r.gpu().clone();
+        let targets = PrepassTargets::new(&gpu, view.size, true);
+        let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("channel") });
+        self.encode_shared(r, &mut encoder, stage, false, &Clock::off())?;
+        self.send_view(&mut encoder, stage, view);
+        if let Some(actors) = actors(stage, &self.group) {
+            // Depth, normal and part id.
+            let all = actors.bodies.troupes.iter().map(|t| t.data().geometry(&r.variants));
+            let all = all.collect::<Result<Vec<_>>>()?;
+            let drawn = &|troupe: usize, draw: usize| all[troupe].get(draw);
+            let inputs = PrepassInputs { actors, targets: &targets, surfaces: true, drawn };
+            prepass::encode(&mut encoder, inputs, None);
+        }
+        gpu.queue.submit([encoder.finish()]);
+        let texture = match view.channel {
+            Channel::Depth => &targets.depth,
+            _ => &targets.surfaces,
+        };
+        let texels = readback::read_texels(&gpu, texture, FRAME_TIMEOUT)?;
+        Ok(view.channel.picture(view, texels))
+    }
 }
 
-/// Writes the numbers of a finished picture.
-pub(crate) fn put_post(gpu: &mut Block<'_>, post: Post, background: Background) {
-    let background = match background {
-        Background::Transparent => [0.0; 4],
-        Background::Color(srgb) => {
-            let [r, g, b] = srgb.to_linear().0;
-            [r, g, b, 1.0]
-        }
-    };
-    let tone = match post.tone {
-        ToneCurve::None => 0u32,
-        ToneCurve::Filmic => 1,
-        ToneCurve::Neutral => 2,
-    };
-    gpu.put("background", background);
-    gpu.put("bloom", post.bloom.map_or(0.0, |b| b.strength));
-    gpu.put("tone", tone);
+/// What passes bind of a stage that is prepared.
+fn actors<'a>(stage: &'a Stage, frame: &'a wgpu::BindGroup) -> Option<Actors<'a>> {
+    let bodies = &stage.bodies;
+    Some(Actors { bodies, crowd: bodies.crowd.as_ref()?, frame })
+}
+
+/// Whether something on a stage reads the depth of the picture.
+fn has_prepass(stage: &Stage) -> bool {
+    stage.bodies.troupes.iter().any(|troupe| troupe.data().has_prepass)
+}
+
+/// Whether something on it reads normals and parts.
+fn has_surfaces(stage: &Stage) -> bool {
+    stage.bodies.troupes.iter().any(|troupe| troupe.data().has_inner_lines)
+}
+
+/// What a frame that is finished by [`PostPass`] is drawn into; settings that are numbers do not count.
+#[derive(Debug)]
+struct PostTargets {
+    color: ColorTargets,
+    picture: wgpu::TextureView,
+    /// Length of the chain below the light that blooms.
+    levels: Option<usize>,
+    light: Option<(wgpu::TextureView, BloomChain)>,
+    group: wgpu::BindGroup,
+}
+
+fn frame_group(gpu: &Gpu, layouts: &Layouts, uniform: &wgpu::Buffer, read: &PrepassTargets) -> wgpu::BindGroup {
+    let read = [&read.depth_view, &read.surfaces_view].map(BindingResource::TextureView);
+    bind::group(gpu, "frame", &layouts.frame, std::iter::once(uniform.as_entire_binding()).chain(read))
 }

@@ -1,4 +1,6 @@
-//! State that lags.
+//! State that lags, and state that threads share.
+
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// A value with what it was made from: its consumer compares, and nobody has to say that something has changed.
 #[derive(Debug)]
@@ -21,4 +23,9 @@ impl<K: PartialEq, T> Made<K, T> {
         self.from = Some(from);
         Some(&mut self.value)
     }
+}
+
+/// What a mutex holds; a panic elsewhere has not made it worse.
+pub(crate) fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -28,7 +28,7 @@ impl Renderer {
     /// # Errors
     /// [`Error::Gpu`] where the adapter refuses a resource, [`Error::Argument`] where the scene contradicts itself or a number
     /// of a material is out of its range.
-    pub fn upload(&mut self, scene: &Scene) -> Result<Character> {
+    pub fn upload(&self, scene: &Scene) -> Result<Character> {
         let gpu = self.gpu().clone();
         let looks = self.looks_of(scene)?;
         gpu.scoped(|| {
@@ -43,7 +43,7 @@ impl Renderer {
     ///
     /// # Errors
     /// Those of [`Renderer::upload`].
-    pub fn upload_and_empty_images(&mut self, scene: &mut Scene) -> Result<Character> {
+    pub fn upload_and_empty_images(&self, scene: &mut Scene) -> Result<Character> {
         let gpu = self.gpu().clone();
         let looks = self.looks_of(scene)?;
         gpu.scoped(|| {
@@ -91,7 +91,7 @@ impl Renderer {
         Ok(Described { sources, compositions, metres_per_uv, driven })
     }
 
-    fn upload_with(&mut self, scene: &Scene, described: Described, textures: &TextureSet) -> Result<Character> {
+    fn upload_with(&self, scene: &Scene, described: Described, textures: &TextureSet) -> Result<Character> {
         let geometry = Geometry::gather(scene);
         let gpu = self.gpu().clone();
         let buffer = |label, contents: &[u8], usage| bind::filled(&gpu, label, contents, usage);
@@ -126,7 +126,7 @@ impl Renderer {
         let static_vertices = buffer("static vertices", bytemuck::cast_slice(&geometry.static_vertices), U::VERTEX);
         let bangs = bangs_fit(scene, &geometry);
         if bangs.is_some() {
-            self.bangs_near()?;
+            self.make_bangs_near()?;
         }
         let shadow = shadow_fit(scene, &geometry);
         let source = DeformSource::new(&gpu, &geometry.deform_input());
@@ -230,7 +230,7 @@ impl Renderer {
 
     /// The maps of the bangs' shadow of so many bodies.
     pub(crate) fn bangs_atlas(&self, fit: &BangsFit, tiles: usize) -> Option<BangsAtlas> {
-        Some(BangsAtlas::new(self.gpu(), self.bangs_near.as_ref()?, fit, tiles))
+        Some(BangsAtlas::new(self.gpu(), self.bangs_near.get()?, fit, tiles))
     }
 
     /// Group 1 of a troupe, and the same while maps are drawn; where a map is missing, an empty one stands.

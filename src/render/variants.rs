@@ -1,11 +1,12 @@
 //! Pipelines: one maker for every pass, keyed by what the shader is linked from and by fixed state, on all cores.
 
 use std::collections::HashMap;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex};
 
 use rayon::prelude::*;
 
 use super::bind;
+use super::made::lock;
 use super::shaders::{Binding, BindingKind, Linked, Recipe, Shaders};
 use super::vertex::{Instance, StaticVertex};
 use crate::{Gpu, Result};
@@ -174,11 +175,6 @@ impl Variants {
         layouts.insert(bindings.to_vec(), Arc::clone(&layout));
         layout
     }
-}
-
-/// A map that a panic elsewhere has not made worse.
-fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 fn pipeline_layout(gpu: &Gpu, groups: &[Option<&wgpu::BindGroupLayout>]) -> wgpu::PipelineLayout {

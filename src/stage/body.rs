@@ -8,9 +8,9 @@ use rayon::prelude::*;
 use super::crowd::Crowd;
 use super::troupe::Troupe;
 use super::{Actor, Stage};
-use crate::render::frame::ActorState;
 use crate::render::looks::Edits;
 use crate::render::made::Made;
+use crate::render::numbers::ActorState;
 use crate::render::pass::Mark;
 use crate::render::pass::shadow::{ShadowFit, ShadowMap, ShadowRows};
 use crate::render::uploads::Uploads;
@@ -229,8 +229,7 @@ impl Bodies {
     fn arrange(&mut self, renderer: &Renderer, actors: &[Actor]) {
         let Self { list, troupes, .. } = self;
         let mut known: HashMap<u64, Body> = list.drain(..).map(|body| (body.id, body)).collect();
-        let kept: Vec<Option<Body>> =
-            actors.iter().map(|a| known.remove(&a.id).filter(|body| body.is_of(a))).collect();
+        let kept: Vec<Option<Body>> = actors.iter().map(|a| known.remove(&a.id).filter(|body| body.is_of(a))).collect();
         let stay: Vec<(usize, u32)> = kept.iter().flatten().map(|b| (b.troupe, b.slot)).collect();
         for (t, troupe) in troupes.iter_mut().enumerate() {
             troupe.keep_slots(|slot| stay.contains(&(t, slot)));
@@ -343,7 +342,11 @@ impl Bodies {
                 }
             }
             let free = taken.trailing_ones();
-            numbers.push(if free < Mark::NUMBERS { free } else { i as u32 % Mark::NUMBERS });
+            numbers.push(if free < Mark::NUMBERS {
+                free
+            } else {
+                i as u32 % Mark::NUMBERS
+            });
         }
     }
 
@@ -508,7 +511,11 @@ fn bounds(moved: &[Option<(Vec3, f32)>], joints: &[AffineRows]) -> (Vec3, Vec3) 
         let radius = radius * joint.scale();
         (low, high) = (low.min(middle - radius), high.max(middle + radius));
     }
-    if low.cmple(high).all() { (low, high) } else { (Vec3::ZERO, Vec3::ZERO) }
+    if low.cmple(high).all() {
+        (low, high)
+    } else {
+        (Vec3::ZERO, Vec3::ZERO)
+    }
 }
 
 /// The map that holds everybody.
@@ -638,9 +645,11 @@ impl Body {
     /// Spheres round its eyes and its hair in the world, where the ones are seen through the other.
     fn eyes_and_hair(&self) -> Option<[Sphere; 2]> {
         let spheres = self.data().rig.eyes_and_hair?;
-        Some(spheres.map(|(middle, radius)| {
-            Sphere { middle: self.head.transform_point3(middle), radius }.moved(&self.world)
-        }))
+        Some(
+            spheres.map(|(middle, radius)| {
+                Sphere { middle: self.head.transform_point3(middle), radius }.moved(&self.world)
+            }),
+        )
     }
 
     /// Where the light of the shadow on its face comes from.

@@ -2,8 +2,8 @@
 
 use crate::Gpu;
 use crate::render::bind;
-use crate::render::frame::{ActorState, actor_numbers, put_actor};
 use crate::render::layout::Filled;
+use crate::render::numbers::{ActorState, actor_numbers, put_actor};
 use crate::render::uploads::Uploads;
 use crate::render::vertex::Instance;
 

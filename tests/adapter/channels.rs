@@ -27,7 +27,7 @@ fn share(image: &Image) -> f64 {
 #[test]
 fn every_channel_shows_its_part() {
     let (gpu, scene) = (gpu(), anime_heroine());
-    let mut renderer = Renderer::new(&gpu).expect("a renderer");
+    let renderer = Renderer::new(&gpu).expect("a renderer");
     let mut uploaded = staged(renderer.upload(&scene));
     let mut view = Shot::framed(&scene, Framing::Face, 0.0, [256, 256]);
     view.lights.directional.to_light = glam::Vec3::new(-0.9, 0.3, 0.24).normalize();
@@ -70,7 +70,7 @@ fn the_transition_is_shown_where_no_ramp_is() {
     for material in &mut scene.materials {
         material.transition = material.shade_ramp.take().and(Some(hikage::material::Transition::default()));
     }
-    let mut renderer = Renderer::new(&gpu).expect("a renderer");
+    let renderer = Renderer::new(&gpu).expect("a renderer");
     let mut uploaded = staged(renderer.upload(&scene));
     let view = Shot { channel: Channel::Look("transition"), ..Shot::framed(&scene, Framing::Face, 0.0, [256, 256]) };
     let share = share(&renderer.shoot(&mut uploaded, &view).expect("a channel"));
@@ -82,7 +82,7 @@ fn the_transition_is_shown_where_no_ramp_is() {
 fn a_plain_look_has_empty_channels() {
     let gpu = gpu();
     let scene = support::heroine();
-    let mut renderer = Renderer::new(&gpu).expect("a renderer");
+    let renderer = Renderer::new(&gpu).expect("a renderer");
     let mut uploaded = staged(renderer.upload(&scene));
     let view = Shot::framed(&scene, Framing::Face, 0.0, [96, 96]);
     for channel in SHADING.into_iter().skip(1) {

@@ -38,7 +38,7 @@ fn stack(layers: [Option<i32>; 4]) -> Scene {
 fn cards_in_one_plane_keep_their_order_at_any_distance() {
     let gpu = gpu();
     let cards = stack([Some(0), Some(1), Some(2), Some(3)]);
-    let mut renderer = Renderer::new(&gpu).expect("a renderer");
+    let renderer = Renderer::new(&gpu).expect("a renderer");
     let mut uploaded = staged(renderer.upload(&cards));
     for distance in [0.3, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0] {
         for yaw in [-60f32, -25.0, 0.0, 40.0] {
@@ -106,15 +106,15 @@ fn another_picture_takes_the_place_of_a_card() {
     ]);
     let map: TextureRef = texture(&mut cards, 4, 4, |_, _| [255, 0, 0, 255]);
     cards.materials[0].base.texture = Some(map);
-    let mut renderer = Renderer::new(&gpu).expect("a renderer");
+    let renderer = Renderer::new(&gpu).expect("a renderer");
     let mut uploaded = staged(renderer.upload(&cards));
-    let look = |renderer: &mut Renderer, uploaded: &mut hikage::Stage| {
+    let look = |renderer: &Renderer, uploaded: &mut hikage::Stage| {
         pixel(&renderer.shoot(uploaded, &view(16, 2.0)).expect("a picture"), 8, 8)
     };
-    assert_eq!(look(&mut renderer, &mut uploaded), [255, 0, 0, 255]);
+    assert_eq!(look(&renderer, &mut uploaded), [255, 0, 0, 255]);
     let green = Image { width: 2, height: 2, pixels: [0, 255, 0, 255].repeat(4), ..Image::default() };
     renderer.replace_base_texture(&mut uploaded, 0, 0, &green).expect("another picture");
-    assert_eq!(look(&mut renderer, &mut uploaded), [0, 255, 0, 255]);
+    assert_eq!(look(&renderer, &mut uploaded), [0, 255, 0, 255]);
     let fault = |result: hikage::Result<()>| result.expect_err("refused").to_string();
     assert!(fault(renderer.replace_base_texture(&mut uploaded, 0, 1, &green)).contains("no base texture"));
     assert!(fault(renderer.replace_base_texture(&mut uploaded, 0, 7, &green)).contains("is not there"));

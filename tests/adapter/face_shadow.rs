@@ -130,7 +130,7 @@ fn a_sweep_of_the_light_never_goes_back() {
         (material.transition, material.shade_ramp) = (None, None);
     }
     let view = portrait();
-    let mut renderer = Renderer::new(&gpu).expect("a renderer");
+    let renderer = Renderer::new(&gpu).expect("a renderer");
     let mut uploaded = staged(renderer.upload(&scene));
     let mut last: Option<Vec<u8>> = None;
     let (mut brightest, mut darkest) = (0u8, 255u8);

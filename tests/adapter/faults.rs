@@ -24,7 +24,7 @@ fn argument<T>(result: hikage::Result<T>) -> String {
 fn frames_of_one_submit_keep_their_views_poses_and_colours() {
     let gpu = gpu();
     let scene = ball();
-    let mut renderer = Renderer::new(&gpu).expect("a renderer");
+    let renderer = Renderer::new(&gpu).expect("a renderer");
     let mut stage = staged(renderer.upload(&scene));
     let mut moved = Pose::rest(&scene);
     moved.locals[0].translation.x = 0.4;
@@ -36,7 +36,7 @@ fn frames_of_one_submit_keep_their_views_poses_and_colours() {
     lit.lights.directional.to_light = Vec3::new(1.0, 0.2, 0.1);
     let frames = [(Pose::rest(&scene), view(256, 2.0)), (moved, view(256, 3.0)), (painted, lit)];
 
-    let mut encode = |encoder: &mut wgpu::CommandEncoder, stage: &mut Stage, (pose, shot): &(Pose, Shot)| {
+    let encode = |encoder: &mut wgpu::CommandEncoder, stage: &mut Stage, (pose, shot): &(Pose, Shot)| {
         let target = target(&gpu, shot.size, Output::default().format, 1);
         stage.actors[0].pose.clone_from(pose);
         shot.set(stage);
@@ -66,7 +66,7 @@ fn every_output_that_is_read_back_gives_the_same_picture() {
         let shot = Shot { background, ..view(64, 2.0) };
         // Samples of an encoded target are resolved on encoded values.
         let of = |format| {
-            let mut renderer =
+            let renderer =
                 Renderer::with_output(&gpu, Output { format, samples: 1, ..Output::default() }).expect("a renderer");
             let mut stage = staged(renderer.upload(&scene));
             renderer.shoot(&mut stage, &shot).expect("a picture").pixels
@@ -81,7 +81,7 @@ fn every_output_that_is_read_back_gives_the_same_picture() {
         }
     }
     let format = wgpu::TextureFormat::R8Unorm;
-    let mut renderer =
+    let renderer =
         Renderer::with_output(&gpu, Output { format, samples: 1, ..Output::default() }).expect("a renderer");
     let mut stage = staged(renderer.upload(&scene));
     let message = argument(renderer.shoot(&mut stage, &view(64, 2.0)));
@@ -92,7 +92,7 @@ fn every_output_that_is_read_back_gives_the_same_picture() {
 fn targets_and_scenes_that_do_not_fit_are_refused() {
     let gpu = gpu();
     let scene = ball();
-    let mut renderer = Renderer::new(&gpu).expect("a renderer");
+    let renderer = Renderer::new(&gpu).expect("a renderer");
     let mut stage = staged(renderer.upload(&scene));
     let format = Output::default().format;
     let other = wgpu::TextureFormat::Bgra8Unorm;
@@ -107,11 +107,11 @@ fn targets_and_scenes_that_do_not_fit_are_refused() {
         let message = argument(renderer.draw(&mut encoder, &stage, &view(64, 2.0).view(), &target));
         assert!(message.contains(word), "{message}");
     }
-    let mut single = Renderer::with_output(&gpu, Output { samples: 1, ..Output::default() }).expect("a renderer");
+    let single = Renderer::with_output(&gpu, Output { samples: 1, ..Output::default() }).expect("a renderer");
     let message = argument(single.shoot(&mut stage, &view(64, 2.0)));
     assert!(message.contains("another output") && message.contains("upload it"), "{message}");
     let elsewhere = Gpu::headless(Some(&gpu.info().name)).expect("a second device");
-    let mut there = Renderer::new(&elsewhere).expect("a renderer");
+    let there = Renderer::new(&elsewhere).expect("a renderer");
     let message = argument(there.shoot(&mut stage, &view(64, 2.0)));
     assert!(message.contains("another device"), "{message}");
 }
@@ -148,7 +148,7 @@ fn scenes_made_in_code_are_checked_at_their_upload() {
         }),
     ];
     let gpu = gpu();
-    let mut renderer = Renderer::new(&gpu).expect("a renderer");
+    let renderer = Renderer::new(&gpu).expect("a renderer");
     for (words, broken) in cases {
         let mut scene = ball();
         broken(&mut scene);
@@ -161,7 +161,7 @@ fn scenes_made_in_code_are_checked_at_their_upload() {
 fn poses_places_and_lights_that_are_none_are_refused() {
     let gpu = gpu();
     let scene = ball();
-    let mut renderer = Renderer::new(&gpu).expect("a renderer");
+    let renderer = Renderer::new(&gpu).expect("a renderer");
     let mut stage = staged(renderer.upload(&scene));
     let rest = Pose::rest(&scene);
     let mut turned = rest.clone();
@@ -235,10 +235,10 @@ fn a_device_that_is_too_small_is_told_what_it_lacks() {
     let shared = Gpu::from_parts(&adapter, shared, queue);
     let scene = anime_heroine();
     let view = View::framed(&scene, Framing::Face, 0.2, [64, 64]);
-    let mut renderers = [1, 2].map(|_| Renderer::new(&shared).expect("a renderer"));
-    let mut stages = renderers.each_mut().map(|r| Stage::of([Actor::new(&r.upload(&scene).expect("an upload"))]));
-    let drawn = |(r, stage): (&mut Renderer, &mut Stage)| r.render(stage, &view).expect("a picture").pixels;
-    let pictures: Vec<_> = renderers.iter_mut().zip(&mut stages).map(drawn).collect();
+    let renderers = [1, 2].map(|_| Renderer::new(&shared).expect("a renderer"));
+    let mut stages = renderers.each_ref().map(|r| Stage::of([Actor::new(&r.upload(&scene).expect("an upload"))]));
+    let drawn = |(r, stage): (&Renderer, &mut Stage)| r.render(stage, &view).expect("a picture").pixels;
+    let pictures: Vec<_> = renderers.iter().zip(&mut stages).map(drawn).collect();
     assert!(pictures[0] == pictures[1], "another picture");
 }
 
@@ -246,7 +246,7 @@ fn a_device_that_is_too_small_is_told_what_it_lacks() {
 fn a_lost_device_says_so() {
     let gpu = Gpu::headless(Some(&gpu().info().name)).expect("a device of its own");
     let scene = ball();
-    let mut renderer = Renderer::new(&gpu).expect("a renderer");
+    let renderer = Renderer::new(&gpu).expect("a renderer");
     let mut stage = staged(renderer.upload(&scene));
     renderer.shoot(&mut stage, &view(64, 2.0)).expect("a picture");
     gpu.device.destroy();

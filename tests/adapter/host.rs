@@ -186,7 +186,7 @@ fn shot() -> Shot {
     shot
 }
 
-fn actors(renderer: &mut Renderer, with_cube: bool) -> Stage {
+fn actors(renderer: &Renderer, with_cube: bool) -> Stage {
     let ball = renderer.upload(&ball()).expect("an upload");
     let mut actors = vec![Actor::new(&ball).at([-0.1, 0.1, 0.5], 0.0), Actor::new(&ball).at([0.15, -0.1, -0.6], 0.0)];
     if with_cube {
@@ -221,8 +221,8 @@ fn a_hosts_cube_hides_and_is_hidden_as_one_drawn_inside() {
         gpu.queue.submit([encoder.finish()]);
         let expected = texels(&gpu, &inside.resolved);
 
-        let mut renderer = Renderer::with_output(&gpu, output).expect("a renderer");
-        let mut stage = actors(&mut renderer, false);
+        let renderer = Renderer::with_output(&gpu, output).expect("a renderer");
+        let mut stage = actors(&renderer, false);
         for cube_first in [true, false] {
             let host = Host::new(&gpu, output, view.size, clip_from_world);
             let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
@@ -261,8 +261,8 @@ fn what_a_host_hands_in_must_fit() {
     let gpu = gpu();
     let view = shot().view();
     let output = Output { depth: Some(F::Depth32Float), ..Output::default() };
-    let mut renderer = Renderer::with_output(&gpu, output).expect("a renderer");
-    let mut stage = actors(&mut renderer, false);
+    let renderer = Renderer::with_output(&gpu, output).expect("a renderer");
+    let mut stage = actors(&renderer, false);
     let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
     renderer.prepare(&mut encoder, &mut stage).expect("a stage");
     let host = Host::new(&gpu, output, view.size, Mat4::IDENTITY);

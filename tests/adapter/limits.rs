@@ -28,7 +28,7 @@ fn the_anime_look_draws_the_same_on_a_device_with_the_default_limits() {
     let scene = anime_heroine();
     let view = Shot::framed(&scene, Framing::Portrait, 0.4, [128, 128]);
     let least = default_device(&lent.info().name);
-    let mut renderer = Renderer::new(&least).expect("a renderer");
+    let renderer = Renderer::new(&least).expect("a renderer");
     let mut uploaded = staged(renderer.upload(&scene));
     let picture = renderer.shoot(&mut uploaded, &view).expect("a picture");
     assert!(picture.pixels == render(&lent, &scene, &view).pixels, "another picture");
@@ -42,7 +42,7 @@ fn every_shared_model_in_the_anime_look_fits_the_default_limits() {
         return;
     };
     let gpu = default_device(&gpu().info().name);
-    let mut renderer = Renderer::new(&gpu).expect("a renderer");
+    let renderer = Renderer::new(&gpu).expect("a renderer");
     let mut count = 0;
     for path in entries.map(|e| e.expect("an entry").path()) {
         if !path.extension().is_some_and(|e| e == "vrm" || e == "glb") {

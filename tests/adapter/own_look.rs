@@ -122,7 +122,7 @@ fn broken_numbers_shine(s: Surface, l: Shaded) -> Shaded {
 
 /// A ball in front of the camera, by a renderer that was made after the registration.
 fn picture(gpu: &Gpu, scene: &Scene, view: &Shot) -> Image {
-    let mut renderer = Renderer::new(gpu).expect("a renderer");
+    let renderer = Renderer::new(gpu).expect("a renderer");
     let mut uploaded = staged(renderer.upload(scene));
     renderer.shoot(&mut uploaded, view).expect("a picture")
 }

@@ -108,7 +108,7 @@ fn maps_follow_light_pose_and_places() {
     view.instances = vec![Mat4::from_rotation_y(0.6)];
     views.push(view.clone());
     views.push(views[0].clone());
-    let mut renderer = hikage::Renderer::new(&gpu).expect("a renderer");
+    let renderer = hikage::Renderer::new(&gpu).expect("a renderer");
     let mut used = staged(renderer.upload(&scene));
     for (i, view) in views.iter().enumerate() {
         let again = renderer.shoot(&mut used, view).expect("a picture");

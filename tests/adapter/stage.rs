@@ -43,7 +43,7 @@ fn two_characters_look_as_each_does_alone_where_they_do_not_meet() {
             (&red, at(-0.6, 0.0)),
             (&box_, Mat4::from_rotation_translation(Quat::from_rotation_y(0.5), Vec3::X * 0.6)),
         ];
-        let drawn = |renderer: &mut Renderer, which: &[usize]| {
+        let drawn = |renderer: &Renderer, which: &[usize]| {
             let actor = |i: &usize| {
                 let mut actor = Actor::new(&renderer.upload(actors[*i].0).expect("an upload"));
                 actor.world = actors[*i].1;
@@ -152,7 +152,7 @@ fn actors_cast_shadows_on_each_other() {
         let mut shot = view(96, 3.0);
         // From the right: the shadow lies to the left of the board.
         shot.lights.directional.to_light = Vec3::new(1.0, 0.0, 1.0).normalize();
-        let draw = |renderer: &mut Renderer, actors: Vec<Actor>| {
+        let draw = |renderer: &Renderer, actors: Vec<Actor>| {
             let mut stage = Stage::of(actors);
             stage.lights = shot.lights.clone();
             renderer.render(&mut stage, &shot.view()).expect("a picture")
@@ -186,7 +186,7 @@ fn each_face_has_the_shadow_of_its_own_bangs() {
     assert!(scene.bangs.is_some());
     with_renderer(&gpu, |renderer| {
         let character = renderer.upload(&scene).expect("an upload");
-        let alone = |renderer: &mut Renderer, turn: f32, x: f32| {
+        let alone = |renderer: &Renderer, turn: f32, x: f32| {
             let mut stage = Stage::of([Actor::new(&character).at([x, 0.0, 0.0], turn)]);
             let mut framed = Shot::framed(&scene, Framing::Face, 0.0, [96, 96]);
             (framed.camera.eye.x, framed.camera.target.x) = (x, x);
@@ -245,7 +245,7 @@ fn a_crowd_has_a_pose_each() {
 fn views_of_one_stage_share_what_is_prepared() {
     let gpu = gpu();
     let red = ball([0.9, 0.2, 0.2, 1.0]);
-    let mut renderer = Renderer::new(&gpu).expect("a renderer");
+    let renderer = Renderer::new(&gpu).expect("a renderer");
     let mut stage = staged(renderer.upload(&red));
     let shots = [view(64, 2.0), view(96, 3.0)];
     stage.lights = shots[0].lights.clone();

@@ -28,7 +28,7 @@ impl Sweep {
         for material in &mut scene.materials {
             (material.diamond, material.sparkle) = (None, None);
         }
-        let mut renderer = Renderer::new(&gpu).expect("a renderer");
+        let renderer = Renderer::new(&gpu).expect("a renderer");
         let uploaded = staged(renderer.upload(&scene));
         let mut view = Shot::framed(&scene, Framing::Face, 0.0, [SIDE * FINER; 2]);
         view.background = Background::Color(Srgb([0xdf, 0xe7, 0xee]));

@@ -254,11 +254,11 @@ pub fn staged(character: hikage::Result<Character>) -> Stage {
 
 /// Draws shots.
 pub trait Shoot {
-    fn shoot(&mut self, stage: &mut Stage, shot: &Shot) -> hikage::Result<Image>;
+    fn shoot(&self, stage: &mut Stage, shot: &Shot) -> hikage::Result<Image>;
 }
 
 impl Shoot for Renderer {
-    fn shoot(&mut self, stage: &mut Stage, shot: &Shot) -> hikage::Result<Image> {
+    fn shoot(&self, stage: &mut Stage, shot: &Shot) -> hikage::Result<Image> {
         shot.set(stage);
         self.render(stage, &shot.view())
     }
@@ -283,7 +283,7 @@ pub fn view(size: u32, distance: f32) -> Shot {
 }
 
 /// Works with the renderer of a device.
-pub fn with_renderer<T>(gpu: &Lent, work: impl FnOnce(&mut Renderer) -> T) -> T {
+pub fn with_renderer<T>(gpu: &Lent, work: impl FnOnce(&Renderer) -> T) -> T {
     let mut renderer = gpu.renderer.borrow_mut();
     work(renderer.get_or_insert_with(|| Renderer::new(gpu).expect("a renderer")))
 }
@@ -298,7 +298,7 @@ pub fn render(gpu: &Lent, scene: &Scene, shot: &Shot) -> Image {
 
 /// Renders a scene into a given output.
 pub fn render_with(gpu: &Gpu, scene: &Scene, shot: &Shot, output: Output) -> Image {
-    let mut renderer = Renderer::with_output(gpu, output).expect("a renderer");
+    let renderer = Renderer::with_output(gpu, output).expect("a renderer");
     let mut stage = staged(renderer.upload(scene));
     renderer.shoot(&mut stage, shot).expect("a picture")
 }

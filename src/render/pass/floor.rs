@@ -1,12 +1,12 @@
 //! The floor of the benches: the same triangles, unlit with one texture, in the same targets.
 
 use super::{Drawing, Mark, Picture};
+use crate::Result;
 use crate::material::{Base, Options};
 use crate::render::Character;
 use crate::render::draw_list::{Actors, Draw};
 use crate::render::shaders::{Bound, Recipe};
 use crate::render::variants::{Drawn, Request, Variants};
-use crate::Result;
 
 /// What draws each surface of a character.
 #[derive(Debug)]

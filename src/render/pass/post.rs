@@ -1,8 +1,8 @@
 //! The finished picture: bloom, tone curve, background, smooth edges.
 
 use super::encodes_srgb;
-use crate::render::frame::{post_numbers, put_post};
 use crate::render::layout::Filled;
+use crate::render::numbers::{post_numbers, put_post};
 use crate::render::shaders::Recipe;
 use crate::render::uploads::Uploads;
 use crate::render::variants::Variants;

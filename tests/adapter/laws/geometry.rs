@@ -64,7 +64,7 @@ fn joints_move_what_they_hold_with_any_number_of_influences() {
     let gpu = gpu();
     for per_vertex in [4, 8] {
         let scene = skinned_bar(per_vertex);
-        let mut renderer = Renderer::new(&gpu).expect("a renderer");
+        let renderer = Renderer::new(&gpu).expect("a renderer");
         let mut uploaded = staged(renderer.upload(&scene));
         let view = view(128, 4.0);
         let rest = renderer.shoot(&mut uploaded, &view).expect("a picture");
@@ -91,7 +91,7 @@ fn morph_targets_move_only_their_vertices() {
     let mut scene = scene(vec![(bar, two_tone())]);
     scene.meshes[0] = Mesh { morph_names: vec!["nothing".into(), "up".into()], ..scene.meshes[0].clone() };
     scene.nodes[0].morph_weights = vec![0.0, 0.0];
-    let mut renderer = Renderer::new(&gpu).expect("a renderer");
+    let renderer = Renderer::new(&gpu).expect("a renderer");
     let mut uploaded = staged(renderer.upload(&scene));
     let view = view(128, 4.0);
     let heights: Vec<u32> = [0.0, 0.5, 1.0]

@@ -72,7 +72,7 @@ fn line_widths(image: &Image) -> [f32; 2] {
 #[test]
 fn lines_keep_their_widths_over_the_whole_range() {
     let gpu = gpu();
-    let mut renderer = hikage::Renderer::new(&gpu).expect("a renderer");
+    let renderer = hikage::Renderer::new(&gpu).expect("a renderer");
     for fov in [15f32, 45.0, 90.0] {
         for distance in [0.5f32, 3.0, 20.0] {
             for size in [[256, 256], [160, 320], [384, 192]] {

@@ -19,7 +19,7 @@ fn parts_are_numbered_in_the_order_of_nodes() {
     assert_eq!(pixel(&image, 40, 64), [1, 0, 0, 255], "the first part, although it is drawn last");
     assert_eq!(pixel(&image, 90, 64), [2, 0, 0, 255]);
     assert_eq!(pixel(&image, 2, 2), [0, 0, 0, 255]);
-    let mut renderer = Renderer::new(&gpu).expect("a renderer");
+    let renderer = Renderer::new(&gpu).expect("a renderer");
     let uploaded = renderer.upload(&scene).expect("an upload");
     assert_eq!((uploaded.part_material(0), uploaded.part_material(1)), (Some(0), Some(1)));
 }
@@ -68,7 +68,7 @@ fn targets_that_do_not_encode_show_the_same_colours() {
 fn views_without_sense_are_refused_with_their_reason() {
     let gpu = gpu();
     let scene = scene(vec![(sphere(0.5, 8, 16), two_tone())]);
-    let mut renderer = Renderer::new(&gpu).expect("a renderer");
+    let renderer = Renderer::new(&gpu).expect("a renderer");
     let mut uploaded = staged(renderer.upload(&scene));
     let mut refuse = |change: fn(&mut Shot), word: &str| {
         let mut view = view(64, 4.0);

@@ -172,7 +172,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let gpu = timed(&mut ms.adapter, || setup::gpu(args.adapter.as_deref()))?;
     spinner.step("making pipelines");
     let output = Output { samples: args.samples, ..Output::default() };
-    let mut renderer = timed(&mut ms.pipelines, || Renderer::with_output(&gpu, output))?;
+    let renderer = timed(&mut ms.pipelines, || Renderer::with_output(&gpu, output))?;
     spinner.step("uploading");
     let mut actors = Vec::with_capacity(models.len());
     for ((model, scene), pose) in models.iter().zip(&mut scenes).zip(poses) {

@@ -166,7 +166,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     };
     spinner.step("making pipelines");
     let gpu = setup::gpu(args.adapter.as_deref())?;
-    let mut renderer = Renderer::with_output(&gpu, Output::default())?;
+    let renderer = Renderer::with_output(&gpu, Output::default())?;
     let mut stage = Stage::of([Actor::new(&renderer.upload_and_empty_images(&mut scene)?)]);
     let lights = stage.lights.clone();
 

@@ -54,10 +54,10 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let mut scene = plain.clone();
     setup::apply_look(Some(&LookName::Anime), None, &mut scene)?;
     let gpu = setup::gpu(args.adapter.as_deref())?;
-    let mut renderer = Renderer::with_output(&gpu, Output::default())?;
+    let renderer = Renderer::with_output(&gpu, Output::default())?;
     for (i, sheet) in sheets.iter().enumerate() {
         spinner.step(format!("{} of {}: {}", i + 1, sheets.len(), sheet.title));
-        let picture = draw(&mut renderer, [&plain, &scene], sheet, args.panel)?;
+        let picture = draw(&renderer, [&plain, &scene], sheet, args.panel)?;
         write_atomic(args.output.join(format!("{}.png", sheet.name)), &encode_png(&picture)?)?;
     }
     drop(spinner);
@@ -67,7 +67,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
 }
 
 /// Draws a sheet; every row has its own scene.
-fn draw(renderer: &mut Renderer, [plain, looked]: [&Scene; 2], sheet: &Sheet, panel: u32) -> Result<Image, Failure> {
+fn draw(renderer: &Renderer, [plain, looked]: [&Scene; 2], sheet: &Sheet, panel: u32) -> Result<Image, Failure> {
     let width = |p: &Panel| (panel as f32 * p.aspect).round() as u32;
     let row_width = |r: &Row| r.panels.iter().map(|p| width(p) + GAP).sum::<u32>() + GAP;
     let height = GAP + sheet.rows.len() as u32 * (panel + LINE + GAP);
@@ -93,7 +93,7 @@ fn draw(renderer: &mut Renderer, [plain, looked]: [&Scene; 2], sheet: &Sheet, pa
 }
 
 fn draw_panel(
-    renderer: &mut Renderer,
+    renderer: &Renderer,
     stage: &mut Stage,
     scene: &Scene,
     panel: &Panel,

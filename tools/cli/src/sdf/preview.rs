@@ -93,7 +93,7 @@ struct Preview {
 
 impl Preview {
     fn new(gpu: &Gpu, mut scene: Scene, project: &Project, sides: Sides, panel: u32) -> Result<Self, Failure> {
-        let mut renderer = Renderer::with_output(gpu, Output::default())?;
+        let renderer = Renderer::with_output(gpu, Output::default())?;
         let character = renderer.upload_and_empty_images(&mut scene)?;
         let pose = setup::pose(&scene, Stance::Rest, &[])?;
         let mut framed = View::framed_pose(&scene, &pose, Framing::Face, 0.0, [panel; 2]);

@@ -72,7 +72,7 @@ impl Studio {
             load_bytes("hikage.vrm", &hikage_character::file(), None, &Limits::default()).expect("the file is read");
         assert!(scene.warnings.is_empty(), "{:?}", scene.warnings);
         change(&mut scene);
-        let mut renderer = Renderer::with_output(&gpu, Output::default()).expect("a renderer");
+        let renderer = Renderer::with_output(&gpu, Output::default()).expect("a renderer");
         let character = renderer.upload_and_empty_images(&mut scene).expect("the scene is uploaded");
         let goldens = goldens();
         Self {

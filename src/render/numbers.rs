@@ -1,0 +1,152 @@
+//! Numbers of a view and of a character for shaders, by the structs in `wgsl/bind`.
+
+use glam::{Mat4, Vec3, Vec4};
+
+use super::layout::{Block, Filled};
+use super::pass::bangs_shadow::{BangsFit, BangsTile};
+use super::pass::shadow::ShadowRows;
+use super::{Background, View};
+use crate::Stage;
+use crate::scene::{EyesThrough, MAX_PUNCTUAL_LIGHTS, Post, PunctualLight, ToneCurve};
+
+/// `Frame` of `wgsl/bind/frame.wgsl`.
+pub(crate) fn frame_numbers() -> Filled {
+    Filled::of("bind/frame", "Frame")
+}
+
+/// `Actor` of `wgsl/bind/actor.wgsl`.
+pub(crate) fn actor_numbers() -> Filled {
+    Filled::of("bind/actor", "Actor")
+}
+
+/// `PostNumbers` of `wgsl/pass/post.wgsl`.
+pub(crate) fn post_numbers() -> Filled {
+    Filled::of("pass/post", "PostNumbers")
+}
+
+/// Writes the numbers of a view of a stage.
+pub(crate) fn put_view(gpu: &mut Block<'_>, view: &View, stage: &Stage) {
+    let aspect = view.size[0] as f32 / view.size[1] as f32;
+    let camera = &view.camera;
+    let view_from_world = camera.view_from_world();
+    let lights = &stage.lights;
+    let directional = &lights.directional;
+    let punctual: [_; MAX_PUNCTUAL_LIGHTS] =
+        std::array::from_fn(|i| lights.punctual.get(i).map_or([[0.0; 4]; 3], punctual));
+    gpu.put("clip_from_world", (camera.clip_from_view(aspect) * view_from_world).to_cols_array_2d());
+    gpu.put("view_from_world", view_from_world.to_cols_array_2d());
+    gpu.put("eye", camera.eye.to_array());
+    gpu.put("time_s", stage.time_s);
+    gpu.put("to_light", directional.to_light.normalize_or(Vec3::Z).to_array());
+    gpu.put("aspect", aspect);
+    gpu.put("light_color", directional.color.scaled(directional.intensity).0);
+    gpu.put("punctual_count", lights.punctual.len().min(MAX_PUNCTUAL_LIGHTS) as u32);
+    gpu.put("ambient_sky", lights.ambient.sky.0);
+    gpu.put("near", camera.near);
+    gpu.put("ambient_ground", lights.ambient.ground.0);
+    gpu.put("coolness", lights.coolness());
+    gpu.put("px_per_m", view.px_per_m(stage.places()));
+    gpu.put("punctual", punctual);
+}
+
+/// A `PunctualLight`: three rows of a vector and a number.
+fn punctual(light: &PunctualLight) -> [[f32; 4]; 3] {
+    let (direction, spot_scale, spot_offset) = light.spot.map_or((Vec3::Z, 0.0, 1.0), |spot| {
+        // KHR_lights_punctual, "Inner and Outer Cone Angles".
+        let outer_cos = spot.outer_rad.cos();
+        let scale = 1.0 / (spot.inner_rad.cos() - outer_cos).max(1e-3);
+        (spot.direction, scale, -outer_cos * scale)
+    });
+    let color = Vec3::from(light.color.scaled(light.intensity).0);
+    [light.position.extend(light.range), color.extend(spot_scale), direction.extend(spot_offset)].map(|r| r.to_array())
+}
+
+/// Where an actor is, and how the light falls on it.
+pub(crate) struct ActorState<'a> {
+    /// Moves the head from its rest to the pose.
+    pub head: Mat4,
+    /// Middle of the head at rest, character space.
+    pub head_middle: Vec3,
+    pub bangs: Option<&'a BangsFit>,
+    pub tile: BangsTile,
+    pub through: Option<EyesThrough>,
+    /// In her space.
+    pub to_light: Vec3,
+    pub from_world: Mat4,
+    pub shadow: ShadowRows,
+    /// Share of the key light that arrives.
+    pub key_light: f32,
+}
+
+impl ActorState<'_> {
+    /// What stands for the whole stage: its shadow map.
+    pub fn of_stage(shadow: ShadowRows) -> Self {
+        Self {
+            head: Mat4::IDENTITY,
+            head_middle: Vec3::ZERO,
+            bangs: None,
+            tile: BangsTile::default(),
+            through: None,
+            to_light: Vec3::Z,
+            from_world: Mat4::IDENTITY,
+            shadow,
+            key_light: 1.0,
+        }
+    }
+}
+
+/// Writes the numbers of an actor.
+pub(crate) fn put_actor(gpu: &mut Block<'_>, of: &ActorState<'_>) {
+    let ActorState { head, bangs, tile, through, shadow, .. } = of;
+    let rows = bangs.map_or([Vec4::ZERO; 3], |b| b.rows(*head, of.to_light));
+    let [hardness, bias] = bangs.map_or([0.0; 2], BangsFit::test);
+    let of_world = rows.map(|row| of.from_world.transpose() * row);
+    // A bone that is scaled to nothing has no rotation.
+    let axis = |axis: Vec3| head.transform_vector3(axis).normalize_or(axis).to_array();
+    gpu.put("face_left", axis(Vec3::X));
+    gpu.put("face_up", axis(Vec3::Y));
+    gpu.put("face_forward", axis(Vec3::Z));
+    gpu.put("bangs_row_u", rows[0].to_array());
+    gpu.put("bangs_row_v", rows[1].to_array());
+    gpu.put("bangs_row_depth", rows[2].to_array());
+    gpu.put("bangs_world_row_u", of_world[0].to_array());
+    gpu.put("bangs_world_row_v", of_world[1].to_array());
+    gpu.put("bangs_world_row_depth", of_world[2].to_array());
+    gpu.put("bangs_hardness", hardness);
+    gpu.put("bangs_bias", bias);
+    gpu.put("bangs_origin", tile.origin);
+    gpu.put("bangs_side", tile.side);
+    gpu.put("through_opacity", through.map_or(0.0, |t| t.opacity));
+    gpu.put("through_window", through.map_or(0.0, |t| t.window_m));
+    gpu.put("through_fade_yaw", through.map_or([0.0; 2], |t| t.fade_yaw_rad));
+    gpu.put("through_fade_pitch", through.map_or([0.0; 2], |t| t.fade_pitch_rad));
+    gpu.put("head", head.transform_point3(of.head_middle).to_array());
+    gpu.put("shadow_right", shadow.right.to_array());
+    gpu.put("shadow_scale", shadow.scale);
+    gpu.put("shadow_up", shadow.up.to_array());
+    gpu.put("shadow_bias", shadow.bias);
+    gpu.put("shadow_to_light", shadow.to_light.to_array());
+    gpu.put("shadow_spread", shadow.spread);
+    gpu.put("shadow_middle", shadow.middle.to_array());
+    gpu.put("key_light", of.key_light);
+    gpu.put("shadow_layer", shadow.layer.map_or(-1.0, |layer| layer as f32));
+}
+
+/// Writes the numbers of a finished picture.
+pub(crate) fn put_post(gpu: &mut Block<'_>, post: Post, background: Background) {
+    let background = match background {
+        Background::Transparent => [0.0; 4],
+        Background::Color(srgb) => {
+            let [r, g, b] = srgb.to_linear().0;
+            [r, g, b, 1.0]
+        }
+    };
+    let tone = match post.tone {
+        ToneCurve::None => 0u32,
+        ToneCurve::Filmic => 1,
+        ToneCurve::Neutral => 2,
+    };
+    gpu.put("background", background);
+    gpu.put("bloom", post.bloom.map_or(0.0, |b| b.strength));
+    gpu.put("tone", tone);
+}
