@@ -6,7 +6,9 @@ use hikage::glam::{Mat4, Quat, Vec3};
 use hikage::motion::{Pose, Stance};
 use hikage::scene::HumanBone;
 use hikage::wgpu;
-use hikage::{Actor, Error, Gpu, Look, Output, Renderer, Stage, Target, View, import, picture, scene::Framing};
+use hikage::{
+    Actor, Error, Far, Gpu, HostDepth, Look, Output, Renderer, Stage, Target, View, import, picture, scene::Framing,
+};
 
 const SIZE: [u32; 2] = [960, 540];
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
@@ -33,7 +35,7 @@ struct Varying { @builtin(position) clip: vec4f, @location(0) color: vec3f }
 fn main() -> Result<(), Error> {
     // The characters: their renderer draws into the host's formats.
     let gpu = Gpu::headless(None)?;
-    let output = Output { format: FORMAT, samples: SAMPLES, depth: Some(DEPTH) };
+    let output = Output { format: FORMAT, samples: SAMPLES, depth: Some(HostDepth { format: DEPTH, far: Far::Zero }) };
     let renderer = Renderer::with_output(&gpu, output)?;
     let mut scene = import::load_bytes("hikage.vrm", &hikage_character::file(), None, &import::Limits::default())?;
     Look::Anime { face: None }.apply(&mut scene);

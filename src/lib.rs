@@ -50,7 +50,7 @@ pub use error::{Error, Result};
 pub use glam;
 pub use gpu::{AdapterInfo, Gpu};
 pub use look::{Look, LookFile};
-pub use render::{Background, Channel, Character, GpuMemory, Output, Renderer, Target, View, shaders};
+pub use render::{Background, Channel, Character, Far, GpuMemory, HostDepth, Output, Renderer, Target, View, shaders};
 pub use stage::{Actor, Stage};
 pub use wgpu;
 

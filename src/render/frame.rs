@@ -20,7 +20,7 @@ use super::{
     Background, Channel, Clock, FRAME_TIMEOUT, Layouts, Output, Renderer, Target, Timed, View, bind, readback,
 };
 use crate::color::Srgb;
-use crate::scene::{Image, Post};
+use crate::scene::{Image, Post, ToneCurve};
 use crate::stage::body::Bodies;
 use crate::{Error, Gpu, Result, Stage};
 
@@ -56,17 +56,19 @@ pub(crate) enum Shown<'a> {
 
 impl<'a> Shown<'a> {
     /// What its shaders are made for.
-    fn sight(self, stage: &Stage) -> Sight<'a> {
+    fn sight(self, stage: &Stage, post: Option<Post>) -> Sight<'a> {
         let channel = match self {
             Self::Channel(channel) => Some(channel),
             Self::Picture | Self::Floor(_) => None,
         };
-        Sight { channel, punctual: !stage.lights.punctual.is_empty(), hdr: self.post(stage).is_some() }
+        Sight { channel, punctual: !stage.lights.punctual.is_empty(), hdr: post.is_some() }
     }
 
-    /// What is done to the whole of it.
-    fn post(self, stage: &Stage) -> Option<Post> {
-        stage.post.filter(|_| matches!(self, Self::Picture))
+    /// What is done to the whole of it: what is laid over something goes the same way.
+    fn post(self, stage: &Stage, target: &Target<'_>, output: Output) -> Option<Post> {
+        let post = stage.post.filter(|_| matches!(self, Self::Picture));
+        let plain = Post { bloom: None, tone: ToneCurve::None, antialias: false };
+        post.or_else(|| target.is_laid_over(output).then_some(plain))
     }
 }
 
@@ -124,8 +126,8 @@ impl Frame {
         shown: Shown<'_>,
         clock: &Clock,
     ) -> Result<()> {
-        let post = shown.post(stage);
-        let pipelines = self.begin_view(r, encoder, stage, view, shown)?;
+        let post = shown.post(stage, &target, r.output);
+        let pipelines = self.begin_view(r, encoder, stage, view, &target, shown, post)?;
         if !matches!(shown, Shown::Floor(_)) {
             // Depth of all surfaces, and their normals and parts, where a material reads them.
             self.encode_prepass(r, encoder, stage, clock)?;
@@ -137,7 +139,7 @@ impl Frame {
         self.record_surfaces(&mut pass, stage, view, shown, &pipelines);
         drop(pass);
         // Bloom, tone curve, background, smooth edges.
-        self.encode_post(encoder, view, target.color, post, clock);
+        self.encode_post(encoder, view, &target, post, clock);
         Ok(())
     }
 
@@ -180,7 +182,9 @@ impl Frame {
         encoder: &mut wgpu::CommandEncoder,
         stage: &Stage,
         view: &View,
+        target: &Target<'_>,
         shown: Shown<'_>,
+        post: Option<Post>,
     ) -> Result<Vec<Drawables>> {
         if !stage.bodies.are_of(&stage.actors) {
             let message = "has other actors than when it was prepared; please prepare it before it is drawn".to_owned();
@@ -188,8 +192,8 @@ impl Frame {
         }
         let gpu = r.gpu().clone();
         self.send_view(encoder, stage, view);
-        match shown.post(stage) {
-            Some(post) => self.fit_post(r, view.size, post)?,
+        match post {
+            Some(post) => self.fit_post(r, view.size, post, target)?,
             None if self.color_targets.as_ref().is_none_or(|t| t.size != view.size) => {
                 self.color_targets = Some(ColorTargets::new(&gpu, view.size, r.output));
             }
@@ -202,7 +206,7 @@ impl Frame {
             let group = frame_group(&gpu, &r.layouts, &self.uniform, &targets);
             self.prepass_targets = Some((targets, group));
         }
-        let picture = Picture::new(&gpu, r.output, shown.sight(stage));
+        let picture = Picture::new(&gpu, r.output, shown.sight(stage, post));
         stage.bodies.troupes.iter().map(|troupe| troupe.data().shown(&r.variants, &picture)).collect()
     }
 
@@ -300,8 +304,9 @@ impl Frame {
             _ => view.background.clear_color(r.output),
         };
         // A host resolves its samples itself.
-        let multisampled = own.filter(|_| target.depth.is_none()).and_then(|t| t.multisampled.as_ref());
-        let load = if target.keeps_color {
+        let resolves = target.depth.is_none() || post.is_some();
+        let multisampled = own.filter(|_| resolves).and_then(|t| t.multisampled.as_ref());
+        let load = if target.keeps_color && post.is_none() {
             LoadOp::Load
         } else {
             LoadOp::Clear(clear)
@@ -345,19 +350,25 @@ impl Frame {
         &mut self,
         encoder: &mut wgpu::CommandEncoder,
         view: &View,
-        target: &wgpu::TextureView,
+        target: &Target<'_>,
         post: Option<Post>,
         clock: &Clock,
     ) {
         let Self { uploads, post: pass, post_targets, .. } = self;
         if let (Some(post), Some(targets), Some(pass)) = (post, post_targets, pass) {
-            let inputs = PostInputs { post, background: view.background, group: &targets.group, target };
+            // What is kept is behind it.
+            let background = if target.keeps_color {
+                Background::Transparent
+            } else {
+                view.background
+            };
+            let inputs = PostInputs { post, background, group: &targets.group, target: target.color };
             pass.encode(uploads, encoder, &inputs, clock.render(Timed::Post));
         }
     }
 
     /// Makes what a picture that is finished by [`PostPass`] is drawn into, where there is none of this size and kind.
-    fn fit_post(&mut self, r: &Renderer, size: [u32; 2], post: Post) -> Result<()> {
+    fn fit_post(&mut self, r: &Renderer, size: [u32; 2], post: Post, target: &Target<'_>) -> Result<()> {
         let gpu = r.gpu().clone();
         if self.post.is_none() {
             self.post = Some(PostPass::new(&r.variants, r.output)?);
@@ -366,7 +377,7 @@ impl Frame {
             self.bloom = Some(BloomPass::new(&r.variants)?);
         }
         let Self { bloom, post: Some(pass), post_targets, .. } = self else { return Ok(()) };
-        pass.fit(&r.variants, post)?;
+        pass.fit(&r.variants, post, target)?;
         let levels = post.bloom.map(|b| b.levels(size[1]));
         if post_targets.as_ref().is_some_and(|t| t.color.size == size && t.levels == levels) {
             return Ok(());

@@ -64,15 +64,34 @@ pub struct Output {
     pub format: wgpu::TextureFormat,
     /// Samples a pixel: 1 or 4. Default: 4.
     pub samples: u32,
-    /// Format of the depth of a host's frame ([`Target::depth`]): `Depth32Float` or `Depth24Plus`, with or without stencil;
-    /// eyes through hair need one. Default: `None`, frames with a depth of their own.
-    pub depth: Option<wgpu::TextureFormat>,
+    /// The depth of a host's frame ([`Target::depth`]). Default: `None`, frames with a depth of their own.
+    pub depth: Option<HostDepth>,
+}
+
+/// The depth of a host's frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct HostDepth {
+    /// `Depth32Float` or `Depth24Plus`, with or without stencil; eyes through hair need one, and nothing is seen through
+    /// without.
+    pub format: wgpu::TextureFormat,
+    /// Where the far plane lies.
+    pub far: Far,
+}
+
+/// Where the far plane of a depth lies, or infinity.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Far {
+    /// At 0: reversed, what is nearer is greater.
+    #[default]
+    Zero,
+    /// At 1: what is nearer is less.
+    One,
 }
 
 impl Output {
     /// Format of the depth of colour passes.
     pub(crate) fn depth_format(self, gpu: &Gpu) -> wgpu::TextureFormat {
-        self.depth.unwrap_or_else(|| pass::color_depth_format(gpu))
+        self.depth.map_or_else(|| pass::color_depth_format(gpu), |depth| depth.format)
     }
 }
 
@@ -127,8 +146,8 @@ impl Renderer {
         if let Some(depth) = output.depth {
             use wgpu::TextureFormat as F;
             let known = [F::Depth32Float, F::Depth32FloatStencil8, F::Depth24Plus, F::Depth24PlusStencil8];
-            if !known.contains(&depth) {
-                let message = format!("is {depth:?}; expected one of {known:?}");
+            if !known.contains(&depth.format) {
+                let message = format!("is {:?}; expected one of {known:?}", depth.format);
                 return Err(Error::Argument { what: "output depth".to_owned(), message });
             }
         }
@@ -225,7 +244,7 @@ impl Renderer {
     ) -> Result<()> {
         view.check()?;
         let target = target.into();
-        target.check(self.output, view, stage.post.is_some())?;
+        target.check(self.output, view)?;
         self.encode(encoder, stage, view, target, Shown::Picture, &Clock::off())
     }
 

@@ -7,7 +7,7 @@ use super::pass::bangs_shadow::{BangsFit, BangsTile};
 use super::pass::shadow::ShadowRows;
 use super::{Background, View};
 use crate::Stage;
-use crate::scene::{EyesThrough, MAX_PUNCTUAL_LIGHTS, Post, PunctualLight, ToneCurve};
+use crate::scene::{DepthRange, EyesThrough, MAX_PUNCTUAL_LIGHTS, Post, PunctualLight, ToneCurve};
 
 /// `Frame` of `wgsl/bind/frame.wgsl`.
 pub(crate) fn frame_numbers() -> Filled {
@@ -45,6 +45,8 @@ pub(crate) fn put_view(gpu: &mut Block<'_>, view: &View, stage: &Stage) {
     gpu.put("near", camera.near);
     gpu.put("ambient_ground", lights.ambient.ground.0);
     gpu.put("coolness", lights.coolness());
+    let DepthRange { a, b } = DepthRange::of(camera);
+    gpu.put("host_depth", [a, b / camera.near]);
     gpu.put("px_per_m", view.px_per_m(stage.places()));
     gpu.put("punctual", punctual);
 }

@@ -149,6 +149,14 @@ pub(crate) fn picture_group(
     bind::group(gpu, "pictures", layout, numbers.chain(pictures).chain([wgpu::BindingResource::Sampler(sampler)]))
 }
 
+/// What a pass over whole pictures draws into.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PictureTarget {
+    pub format: wgpu::TextureFormat,
+    pub samples: u32,
+    pub blend: Option<wgpu::BlendState>,
+}
+
 /// Pipeline of a pass over whole pictures; without a layout, the shader's own.
 pub(crate) fn picture_pipeline(
     gpu: &Gpu,
@@ -156,9 +164,9 @@ pub(crate) fn picture_pipeline(
     layout: Option<&wgpu::PipelineLayout>,
     module: &wgpu::ShaderModule,
     fragment: &str,
-    format: wgpu::TextureFormat,
-    blend: Option<wgpu::BlendState>,
+    into: PictureTarget,
 ) -> wgpu::RenderPipeline {
+    let PictureTarget { format, samples, blend } = into;
     gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some(label),
         layout,
@@ -170,7 +178,7 @@ pub(crate) fn picture_pipeline(
         },
         primitive: wgpu::PrimitiveState::default(),
         depth_stencil: None,
-        multisample: wgpu::MultisampleState::default(),
+        multisample: wgpu::MultisampleState { count: samples, ..Default::default() },
         fragment: Some(wgpu::FragmentState {
             module,
             entry_point: Some(fragment),

@@ -1,13 +1,13 @@
 //! What is seen: camera, size, background, channel; and framings of a character.
 
-use glam::{Mat4, Quat, Vec3};
+use glam::{Mat4, Quat, Vec2, Vec3, Vec4};
 
 use super::{MAX_TEXTURE_SIDE, Output, pass::encodes_srgb, vertex::unpack_unit};
 use crate::{
     Error, Result,
     color::Srgb,
     motion::Pose,
-    scene::{Camera, Framing, HumanBone, Image, Scene},
+    scene::{Camera, DepthRange, Framing, HumanBone, Image, Scene},
     stage::Stage,
 };
 
@@ -173,6 +173,24 @@ impl View {
         self.size[1] as f32 / (2.0 * nearest * (self.camera.fov_y_rad * 0.5).tan())
     }
 
+    /// The view of a host's camera: `view_from_world` (right-handed, looking along -Z, without scale) and a perspective
+    /// `clip_from_view`, whatever its depth: 0..1 or 1..0, with a far plane or without.
+    #[must_use]
+    pub fn of_matrices(view_from_world: Mat4, clip_from_view: Mat4, size: [u32; 2]) -> Self {
+        let world_from_view = view_from_world.inverse();
+        let eye = world_from_view.w_axis.truncate();
+        let mut camera = Camera {
+            eye,
+            target: eye - world_from_view.z_axis.truncate(),
+            up: world_from_view.y_axis.truncate(),
+            fov_y_rad: 2.0 * (1.0 / clip_from_view.y_axis.y.abs()).atan(),
+            matrices: Some([view_from_world, clip_from_view]),
+            ..Camera::default()
+        };
+        camera.near = DepthRange::of(&camera).near();
+        Self { size, camera, ..Self::default() }
+    }
+
     /// A view of a character at rest: `yaw_rad` moves the camera around it, positive towards the character's left (+X).
     ///
     /// Head and hips come from the humanoid bones, else from nodes of that name, else from the bounding box.
@@ -235,6 +253,14 @@ impl View {
             );
         }
         let camera = &self.camera;
+        if let Some([view_from_world, clip_from_view]) = camera.matrices {
+            let [x, y, z, w] = [0, 1, 2, 3].map(|i| clip_from_view.row(i));
+            let is_perspective = w == Vec4::NEG_Z && z.truncate().truncate() == Vec2::ZERO && x.w == 0.0 && y.w == 0.0;
+            if !view_from_world.is_finite() || !clip_from_view.is_finite() || !is_perspective {
+                let message = "expected finite ones, and of clip_from_view a perspective whose w is the distance";
+                return fault("camera matrices", message.to_owned());
+            }
+        }
         if !(camera.fov_y_rad > 0.0 && camera.fov_y_rad < std::f32::consts::PI) {
             return fault("field of view", format!("is {} rad; expected above 0, below pi", camera.fov_y_rad));
         }

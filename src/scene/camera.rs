@@ -15,6 +15,9 @@ pub struct Camera {
     pub fov_y_rad: f32,
     /// Distance of the near plane, metres, above 0. Default: 0.1.
     pub near: f32,
+    /// Matrices of a host that stand for all of the above: `view_from_world`, and a perspective `clip_from_view`.
+    /// [`View::of_matrices`](crate::View::of_matrices) sets the other fields by them. Default: `None`.
+    pub matrices: Option<[Mat4; 2]>,
 }
 
 impl Default for Camera {
@@ -25,6 +28,7 @@ impl Default for Camera {
             up: Vec3::Y,
             fov_y_rad: 20f32.to_radians(),
             near: 0.1,
+            matrices: None,
         }
     }
 }
@@ -33,13 +37,18 @@ impl Camera {
     /// `view_from_world`, right-handed, looking along -Z.
     #[must_use]
     pub fn view_from_world(&self) -> Mat4 {
-        glam::camera::rh::view::look_at_mat4(self.eye, self.target, self.up)
+        let own = || glam::camera::rh::view::look_at_mat4(self.eye, self.target, self.up);
+        self.matrices.map_or_else(own, |[view_from_world, _]| view_from_world)
     }
 
     /// `clip_from_view` with reverse Z (1 at the near plane, 0 at infinity).
     #[must_use]
     #[rustfmt::skip]
     pub fn clip_from_view(&self, aspect: f32) -> Mat4 {
+        if let Some([_, mut clip_from_view]) = self.matrices {
+            (clip_from_view.z_axis.z, clip_from_view.w_axis.z) = (0.0, self.near);
+            return clip_from_view;
+        }
         let f = 1.0 / (self.fov_y_rad * 0.5).tan();
         Mat4::from_cols_array(&[
             f / aspect, 0.0, 0.0, 0.0, //
@@ -47,6 +56,35 @@ impl Camera {
             0.0, 0.0, 0.0, -1.0, //
             0.0, 0.0, self.near, 0.0,
         ])
+    }
+}
+
+/// How a perspective projection writes depth: a + b / distance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct DepthRange {
+    pub a: f32,
+    pub b: f32,
+}
+
+impl DepthRange {
+    /// Of a camera.
+    pub fn of(camera: &Camera) -> Self {
+        let of = |[_, clip_from_view]: [Mat4; 2]| Self { a: -clip_from_view.z_axis.z, b: clip_from_view.w_axis.z };
+        camera.matrices.map_or(Self { a: 0.0, b: camera.near }, of)
+    }
+
+    /// Whether it is 1 at the near plane.
+    pub fn is_reversed(self) -> bool {
+        self.b > 0.0
+    }
+
+    /// Distance of the near plane, metres.
+    pub fn near(self) -> f32 {
+        if self.is_reversed() {
+            self.b / (1.0 - self.a)
+        } else {
+            -self.b / self.a
+        }
     }
 }
 

@@ -18,6 +18,7 @@ mod texture;
 
 pub use animation::{Animation, AnimationChannel, AnimationValues, Interpolation};
 pub use bangs::Bangs;
+pub(crate) use camera::DepthRange;
 pub use camera::{Camera, Framing};
 pub use character::*;
 pub use eyes_through::EyesThrough;

@@ -81,8 +81,7 @@ fn every_output_that_is_read_back_gives_the_same_picture() {
         }
     }
     let format = wgpu::TextureFormat::R8Unorm;
-    let renderer =
-        Renderer::with_output(&gpu, Output { format, samples: 1, ..Output::default() }).expect("a renderer");
+    let renderer = Renderer::with_output(&gpu, Output { format, samples: 1, ..Output::default() }).expect("a renderer");
     let mut stage = staged(renderer.upload(&scene));
     let message = argument(renderer.shoot(&mut stage, &view(64, 2.0)));
     assert!(message.contains("R8Unorm") && message.contains("expected Rgba8Unorm"), "{message}");

@@ -1,11 +1,12 @@
 //! Actors in the frame of a host: its colour is kept, its depth hides them, and they hide what it draws.
 
 use glam::{Mat4, Vec3};
+use hikage::color::Srgb;
 use hikage::material::{Base, Material, Outline, OutlineWidth, Shading};
-use hikage::scene::Scene;
-use hikage::{Actor, Error, Gpu, Output, Renderer, Stage, Target, View};
+use hikage::scene::{Bloom, Framing, Post, Scene, ToneCurve};
+use hikage::{Actor, Background, Error, Far, Gpu, HostDepth, Output, Renderer, Stage, Target, View};
 
-use crate::support::{Shot, cube, gpu, scene, sphere, texels, two_tone, view};
+use crate::support::{HEAD, Shot, anime_heroine, cube, gpu, keep, scene, sphere, texels, two_tone, view};
 
 const COLOR: [f32; 4] = [0.1, 0.5, 0.2, 1.0];
 const HALF: f32 = 0.25;
@@ -25,6 +26,7 @@ fn cube_inside() -> Scene {
 
 /// A host that draws a cube of one colour.
 struct Host {
+    far: f32,
     pipeline: wgpu::RenderPipeline,
     group: wgpu::BindGroup,
     vertices: wgpu::Buffer,
@@ -37,7 +39,11 @@ impl Host {
     fn new(gpu: &Gpu, output: Output, size: [u32; 2], clip_from_world: Mat4) -> Self {
         use wgpu::util::DeviceExt;
         let device = &gpu.device;
-        let depth_format = output.depth.expect("a host's depth");
+        let HostDepth { format: depth_format, far } = output.depth.expect("a host's depth");
+        let (nearer, far) = match far {
+            Far::Zero => (wgpu::CompareFunction::Greater, 0.0),
+            Far::One => (wgpu::CompareFunction::Less, 1.0),
+        };
         let texture = |format, samples, more| {
             device.create_texture(&wgpu::TextureDescriptor {
                 label: None,
@@ -81,7 +87,7 @@ impl Host {
             depth_stencil: Some(wgpu::DepthStencilState {
                 format: depth_format,
                 depth_write_enabled: Some(true),
-                depth_compare: Some(wgpu::CompareFunction::Greater),
+                depth_compare: Some(nearer),
                 stencil: wgpu::StencilState::default(),
                 bias: wgpu::DepthBiasState::default(),
             }),
@@ -109,6 +115,7 @@ impl Host {
             entries: &[wgpu::BindGroupEntry { binding: 0, resource: numbers.as_entire_binding() }],
         });
         Self {
+            far,
             group,
             pipeline,
             vertices: buffer(&corners, wgpu::BufferUsages::VERTEX),
@@ -148,7 +155,7 @@ impl Host {
                 view: &depth,
                 depth_ops: Some(wgpu::Operations {
                     load: if clears {
-                        wgpu::LoadOp::Clear(0.0)
+                        wgpu::LoadOp::Clear(self.far)
                     } else {
                         wgpu::LoadOp::Load
                     },
@@ -186,6 +193,44 @@ fn shot() -> Shot {
     shot
 }
 
+/// Cameras of hosts.
+#[derive(Clone, Copy, Debug)]
+enum Lens {
+    /// That of the view.
+    Camera,
+    /// A host's matrices, with a far plane and a picture that is shifted sideways.
+    Planes(Far),
+}
+
+impl Lens {
+    fn far(self) -> Far {
+        match self {
+            Self::Camera => Far::Zero,
+            Self::Planes(far) => far,
+        }
+    }
+
+    /// The view through it, and its matrix.
+    fn of(self, view: &View) -> (View, Mat4) {
+        let aspect = view.size[0] as f32 / view.size[1] as f32;
+        let (view_from_world, mut clip_from_view) = (view.camera.view_from_world(), view.camera.clip_from_view(aspect));
+        let view = match self {
+            Self::Camera => view.clone(),
+            Self::Planes(far) => {
+                let (near, end) = (0.2f32, 40.0f32);
+                let (a, b) = match far {
+                    Far::One => (end / (end - near), -near * end / (end - near)),
+                    Far::Zero => (-near / (end - near), near * end / (end - near)),
+                };
+                (clip_from_view.z_axis.z, clip_from_view.w_axis.z) = (-a, b);
+                clip_from_view.z_axis.x = 0.1;
+                View { background: view.background, ..View::of_matrices(view_from_world, clip_from_view, view.size) }
+            }
+        };
+        (view, clip_from_view * view_from_world)
+    }
+}
+
 fn actors(renderer: &Renderer, with_cube: bool) -> Stage {
     let ball = renderer.upload(&ball()).expect("an upload");
     let mut actors = vec![Actor::new(&ball).at([-0.1, 0.1, 0.5], 0.0), Actor::new(&ball).at([0.15, -0.1, -0.6], 0.0)];
@@ -201,16 +246,19 @@ fn actors(renderer: &Renderer, with_cube: bool) -> Stage {
 fn a_hosts_cube_hides_and_is_hidden_as_one_drawn_inside() {
     use wgpu::TextureFormat as F;
     let gpu = gpu();
-    let view = shot().view();
-    let clip_from_world =
-        view.camera.clip_from_view(view.size[0] as f32 / view.size[1] as f32) * view.camera.view_from_world();
-    for (format, samples, depth) in [
-        (F::Rgba8UnormSrgb, 4, F::Depth32Float),
-        (F::Rgba8UnormSrgb, 1, F::Depth24Plus),
-        (F::Rgba8UnormSrgb, 4, F::Depth24PlusStencil8),
-        (F::Rgba16Float, 4, F::Depth32Float),
+    let own_view = shot().view();
+    for (format, samples, depth, lens) in [
+        (F::Rgba8UnormSrgb, 4, F::Depth32Float, Lens::Camera),
+        (F::Rgba8UnormSrgb, 1, F::Depth24Plus, Lens::Camera),
+        (F::Rgba8UnormSrgb, 4, F::Depth24PlusStencil8, Lens::Camera),
+        (F::Rgba16Float, 4, F::Depth32Float, Lens::Camera),
+        (F::Rgba8UnormSrgb, 4, F::Depth32Float, Lens::Planes(Far::Zero)),
+        (F::Rgba8UnormSrgb, 4, F::Depth32Float, Lens::Planes(Far::One)),
+        (F::Rgba8UnormSrgb, 1, F::Depth24Plus, Lens::Planes(Far::One)),
+        (F::Rgba16Float, 1, F::Depth32Float, Lens::Planes(Far::One)),
     ] {
-        let output = Output { format, samples, depth: Some(depth) };
+        let (view, clip_from_world) = lens.of(&own_view);
+        let output = Output { format, samples, depth: Some(HostDepth { format: depth, far: lens.far() }) };
         // The same inside of a picture of its own, with the host's kind of depth.
         let mut own = Renderer::with_output(&gpu, Output { depth: None, ..output }).expect("a renderer");
         let mut stage = actors(&mut own, true);
@@ -240,15 +288,15 @@ fn a_hosts_cube_hides_and_is_hidden_as_one_drawn_inside() {
                 expected.iter().zip(&found).filter(|(a, b)| a != b).count()
             };
             assert!(found.chunks_exact(4).any(|p| p != &found[..4]), "nothing is drawn");
-            // At edges that cross, samples of depths of 24 bits may fall on the other side.
-            let most = if matches!(depth.texture().format(), F::Depth32Float) {
+            // At edges that cross, samples of other depths may fall on the other side.
+            let most = if matches!(depth.texture().format(), F::Depth32Float) && matches!(lens, Lens::Camera) {
                 0
             } else {
                 8
             };
             assert!(
                 off <= most,
-                "{format:?}, {samples} samples, {:?}, cube first {cube_first}: {off} bytes differ",
+                "{format:?}, {samples} samples, {lens:?}, {:?}, cube first {cube_first}: {off} bytes differ",
                 output.depth
             );
         }
@@ -260,13 +308,14 @@ fn what_a_host_hands_in_must_fit() {
     use wgpu::TextureFormat as F;
     let gpu = gpu();
     let view = shot().view();
-    let output = Output { depth: Some(F::Depth32Float), ..Output::default() };
+    let of = |format| Some(HostDepth { format, far: Far::Zero });
+    let output = Output { depth: of(F::Depth32Float), ..Output::default() };
     let renderer = Renderer::with_output(&gpu, output).expect("a renderer");
     let mut stage = actors(&renderer, false);
     let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
     renderer.prepare(&mut encoder, &mut stage).expect("a stage");
     let host = Host::new(&gpu, output, view.size, Mat4::IDENTITY);
-    let other = Host::new(&gpu, Output { depth: Some(F::Depth24Plus), ..output }, view.size, Mat4::IDENTITY);
+    let other = Host::new(&gpu, Output { depth: of(F::Depth24Plus), ..output }, view.size, Mat4::IDENTITY);
     let [color, depth, resolved] = host.views();
     let whole = Target { color: &color, keeps_color: true, depth: Some(&depth) };
     for (target, words) in [
@@ -282,12 +331,96 @@ fn what_a_host_hands_in_must_fit() {
     }
     let far = View { size: [64, 64], ..view };
     assert!(renderer.draw(&mut encoder, &stage, &far, whole).is_err_and(|e| e.to_string().contains("size")));
-    let strange = Output { depth: Some(F::Depth16Unorm), ..output };
+    let strange = Output { depth: of(F::Depth16Unorm), ..output };
     assert!(Renderer::with_output(&gpu, strange).is_err_and(|e| e.to_string().contains("Depth16Unorm")));
-    let mut plain = Renderer::new(&gpu).expect("a renderer");
-    let mut stage = actors(&mut plain, false);
-    plain.prepare(&mut encoder, &mut stage).expect("a stage");
-    let keeps = Target { keeps_color: true, ..Target::from(&resolved) };
-    let error = plain.draw(&mut encoder, &stage, &view, keeps).expect_err("samples to resolve").to_string();
-    assert!(error.contains("keeps_color"), "{error}");
+    let (other_way, _) = Lens::Planes(Far::One).of(&view);
+    let error = renderer.draw(&mut encoder, &stage, &other_way, whole).expect_err("the other direction").to_string();
+    assert!(error.contains("Far::Zero"), "{error}");
+    let flat = View::of_matrices(view.camera.view_from_world(), Mat4::IDENTITY, view.size);
+    assert!(renderer.draw(&mut encoder, &stage, &flat, whole).is_err_and(|e| e.to_string().contains("perspective")));
 }
+
+/// A head with everything that reads what other passes have drawn.
+#[test]
+fn rims_lines_and_eyes_through_hair_are_in_a_hosts_frame_what_they_are_alone() {
+    use wgpu::TextureFormat as F;
+    let gpu = gpu();
+    let mut scene = anime_heroine();
+    keep(&mut scene, HEAD);
+    scene.post = None;
+    assert!(scene.materials.iter().any(|m| m.depth_rim.is_some()), "she has no rim");
+    scene.materials.iter_mut().for_each(|m| m.inner_lines = Some(Default::default()));
+    let own_view =
+        View { background: Background::Color(Srgb([0x80; 3])), ..View::framed(&scene, Framing::Face, 0.3, [128, 128]) };
+    for (depth, lens, most) in [
+        (F::Depth32FloatStencil8, Lens::Camera, 60),
+        (F::Depth24PlusStencil8, Lens::Camera, 60),
+        (F::Depth24PlusStencil8, Lens::Planes(Far::One), 300),
+        (F::Depth24PlusStencil8, Lens::Planes(Far::Zero), 300),
+    ] {
+        let (view, clip_from_world) = lens.of(&own_view);
+        let output = Output { depth: Some(HostDepth { format: depth, far: lens.far() }), ..Output::default() };
+        let drawn = |output: Output, hosted: bool| {
+            let renderer = Renderer::with_output(&gpu, output).expect("a renderer");
+            let mut stage = Stage::of([Actor::new(&renderer.upload(&scene).expect("an upload"))]);
+            if !hosted {
+                return renderer.render(&mut stage, &view).expect("a picture").pixels;
+            }
+            let host = Host::new(&gpu, output, view.size, clip_from_world);
+            let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+            renderer.prepare(&mut encoder, &mut stage).expect("a stage");
+            host.draw(&mut encoder, true, false, false);
+            let [color, depth, _] = host.views();
+            let target = Target { color: &color, keeps_color: true, depth: Some(&depth) };
+            renderer.draw(&mut encoder, &stage, &view, target).expect("a view");
+            host.draw(&mut encoder, false, false, true);
+            gpu.queue.submit([encoder.finish()]);
+            texels(&gpu, host.finished())
+        };
+        let (alone, hosted) = (drawn(Output::default(), false), drawn(output, true));
+        let off = alone.iter().zip(&hosted).filter(|(a, b)| a.abs_diff(**b) > 1).count();
+        assert!(off <= most, "{lens:?}: {off} bytes differ");
+    }
+}
+
+/// What finishes whole pictures, and samples of our own, are drawn apart and laid over the host's colour.
+#[test]
+fn finished_pictures_are_laid_over_what_is_kept() {
+    let gpu = gpu();
+    let view = View { background: Background::Color(Srgb([0x80; 3])), ..shot().view() };
+    let clip_from_world =
+        view.camera.clip_from_view(view.size[0] as f32 / view.size[1] as f32) * view.camera.view_from_world();
+    let post = Post { bloom: Some(Bloom::default()), tone: ToneCurve::Filmic, antialias: false };
+    let depth = HOST;
+    for (post, samples, depth) in
+        [(Some(post), 4, depth), (Some(post), 1, depth), (Some(post), 4, None), (None, 4, None), (None, 1, None)]
+    {
+        let own = Renderer::with_output(&gpu, Output { samples, ..Output::default() }).expect("a renderer");
+        let mut stage = actors(&own, false);
+        stage.post = post;
+        let expected = own.render(&mut stage, &view).expect("a picture").pixels;
+
+        let output = Output { samples, depth, ..Output::default() };
+        let renderer = Renderer::with_output(&gpu, output).expect("a renderer");
+        let mut stage = actors(&renderer, false);
+        stage.post = post;
+        let of_host =
+            Output { samples: if depth.is_some() { samples } else { 1 }, depth: output.depth.or(HOST), ..output };
+        let host = Host::new(&gpu, of_host, view.size, clip_from_world);
+        let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        renderer.prepare(&mut encoder, &mut stage).expect("a stage");
+        host.draw(&mut encoder, true, false, false);
+        let [color, host_depth, _] = host.views();
+        let target = Target { color: &color, keeps_color: true, depth: depth.map(|_| &host_depth) };
+        renderer.draw(&mut encoder, &stage, &view, target).expect("a view");
+        host.draw(&mut encoder, false, false, true);
+        gpu.queue.submit([encoder.finish()]);
+        let found = texels(&gpu, host.finished());
+        let off = expected.iter().zip(&found).map(|(a, b)| a.abs_diff(*b)).max();
+        // Smoothed edges see what is behind them.
+        let most = if samples == 1 && post.is_some() { 12 } else { 1 };
+        assert!(off <= Some(most), "post {}, {samples} samples, {depth:?}: {off:?}", post.is_some());
+    }
+}
+
+const HOST: Option<HostDepth> = Some(HostDepth { format: wgpu::TextureFormat::Depth32Float, far: Far::Zero });

@@ -33,12 +33,26 @@ struct Frame {
     coolness: f32,
     // Size of a metre at the nearest character.
     px_per_m: f32,
+    // Depth of a host is x + y * near / distance.
+    host_depth: vec2f,
     punctual: array<PunctualLight, 4>,
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;
 // Depth of all surfaces, one sample a pixel; only where a material reads it.
 @group(0) @binding(1) var frame_depth: texture_depth_2d;
+
+// Clip position as the depth of the target has it.
+fn in_target(clip: vec4f) -> vec4f {
+    @if(host_depth) return vec4f(clip.xy, frame.host_depth.x * clip.w + frame.host_depth.y * clip.z, clip.w);
+    @if(!host_depth) return clip;
+}
+
+// Distance along the view of a fragment of the picture, metres.
+fn distance_here(position: vec4f) -> f32 {
+    @if(host_depth) return 1.0 / position.w;
+    @if(!host_depth) return frame.near / max(position.z, 1e-12);
+}
 
 // Distance along the view of what stands at a pixel, metres; very far where nothing does.
 fn distance_at(pixel: vec2i) -> f32 {

@@ -1,5 +1,5 @@
 // Light along the contour, by depth.
-import package::bind::frame::{distance_at, frame, frame_depth};
+import package::bind::frame::{distance_at, distance_here, frame, frame_depth};
 import package::bind::lights::punctual_light;
 import package::bind::shown::shown;
 import package::bind::surface::{Shaded, Surface};
@@ -24,7 +24,7 @@ struct DepthRim {
 
 fn depth_rim_contour(s: Surface, l: Shaded, color: vec3f) -> vec3f {
     let m = &material.depth_rim;
-    let pixel = s.at.clip_position.xyz;
+    let pixel = s.at.clip_position;
     let seen = (frame.view_from_world * vec4f(s.normal, 0.0)).xy;
     let height = f32(textureDimensions(frame_depth).y);
     var width = m.width_px;
@@ -32,7 +32,7 @@ fn depth_rim_contour(s: Surface, l: Shaded, color: vec3f) -> vec3f {
         depth_rim_width_mask, depth_rim_width_mask_sampler, texture_uv(s.uv, m.width_mask_uv)
     ).r;
     let offset = depth_rim_offset(seen, width, height);
-    let here = frame.near / max(pixel.z, 1e-12);
+    let here = distance_here(pixel);
     // Two places a pixel apart soften the inner edge; a little less, since half a pixel lies between two centres.
     let half_px = offset * (0.49 / max(length(offset), 0.5));
     let near_step = distance_at(vec2i(floor(pixel.xy + offset - half_px))) - here;

@@ -1,6 +1,6 @@
 // Eyes and brows over the hair that hangs before them.
 import package::bind::actor::actors;
-import package::bind::frame::frame;
+import package::bind::frame::{frame, in_target};
 import package::bind::surface::{drawn, encoded};
 import package::bind::varying::{Varying, in_face_frame, surface_varying};
 import package::bind::vertex::{VertexInput, vertex_of, world_position};
@@ -11,6 +11,7 @@ fn vs_main(in: VertexInput) -> Varying {
     let v = vertex_of(in);
     var out = surface_varying(v);
     out.clip_position.z = pulled_depth(out.clip_position.z, out.clip_position.w, actors[v.actor].through_window);
+    out.clip_position = in_target(out.clip_position);
     let view = in_face_frame(v, normalize(frame.eye - world_position(v, v.position)));
     out.opacity = actors[v.actor].through_opacity
         * eyes_through_fade(view, actors[v.actor].through_fade_yaw, actors[v.actor].through_fade_pitch);

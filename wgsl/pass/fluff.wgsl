@@ -1,5 +1,5 @@
 // Fluff: shells of a coat of short hair, from the root outwards, blended over each other.
-import package::bind::frame::frame;
+import package::bind::frame::{frame, in_target};
 import package::bind::pixel::{Pixel, pixel};
 import package::bind::surface::{drawn, encoded};
 import package::bind::varying::{Varying, surface_varying};
@@ -17,7 +17,7 @@ fn vs_main(in: VertexInput) -> Varying {
     let bend = out.level * out.level;
     out.world_position = out.world_position + out.normal * m.length_m * out.level - vec3f(0.0, m.gravity_m * bend, 0.0)
         + fluff_wind(out.world_position, phase) * m.wind_m * bend;
-    out.clip_position = frame.clip_from_world * vec4f(out.world_position, 1.0);
+    out.clip_position = in_target(frame.clip_from_world * vec4f(out.world_position, 1.0));
     return out;
 }
 

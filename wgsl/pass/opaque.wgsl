@@ -1,4 +1,5 @@
 // Opaque and alpha-masked surfaces; with several samples a pixel the cut covers as many samples as it should.
+import package::bind::frame::in_target;
 import package::bind::pixel::{Pixel, pixel};
 import package::bind::surface::{drawn, encoded};
 import package::bind::varying::{Varying, surface_varying};
@@ -7,7 +8,9 @@ import package::material::stage_samples;
 
 @vertex
 fn vs_main(in: VertexInput) -> Varying {
-    return surface_varying(vertex_of(in));
+    var out = surface_varying(vertex_of(in));
+    out.clip_position = in_target(out.clip_position);
+    return out;
 }
 
 @fragment

@@ -1,5 +1,5 @@
 // Outlines: back faces pushed outwards along smoothed normals.
-import package::bind::frame::frame;
+import package::bind::frame::{frame, in_target};
 import package::bind::lights::arriving_light;
 import package::bind::pixel::{Pixel, pixel};
 import package::bind::surface::{drawn, encoded, surface_of};
@@ -43,6 +43,7 @@ fn vs_main(in: VertexInput) -> Varying {
     // 1e-5 of the distance behind the surface, so that a hull of width 0 stays hidden (depth is near / distance).
     out.clip_position.z *= 1.0 - 1e-5;
     @if(outline_push) out.clip_position.z = pulled_depth(out.clip_position.z, out.clip_position.w, -m.push_m);
+    out.clip_position = in_target(out.clip_position);
     return out;
 }
 

@@ -1,4 +1,5 @@
 // Blended surfaces; the output is premultiplied.
+import package::bind::frame::in_target;
 import package::bind::surface::{drawn, encoded};
 import package::bind::varying::{Varying, surface_varying};
 import package::bind::vertex::{VertexInput, vertex_of};
@@ -6,7 +7,9 @@ import package::material::stage_left;
 
 @vertex
 fn vs_main(in: VertexInput) -> Varying {
-    return surface_varying(vertex_of(in));
+    var out = surface_varying(vertex_of(in));
+    out.clip_position = in_target(out.clip_position);
+    return out;
 }
 
 @fragment

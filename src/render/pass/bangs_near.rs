@@ -1,9 +1,10 @@
 //! Nearest depths of the map of the bangs, by blocks: they spare most receivers its taps.
 
 use super::bangs_shadow;
+use crate::render::bind;
 use crate::render::shaders::Recipe;
+use crate::render::targets::{self, PictureTarget};
 use crate::render::variants::Variants;
-use crate::render::{bind, targets};
 use crate::{Gpu, Result};
 
 /// Texels of the map along a block; `BANGS_BLOCK` in `wgsl/lib/bangs.wgsl` (a test compares them).
@@ -24,8 +25,8 @@ pub(crate) struct BangsNearInputs<'a> {
 impl BangsNearPass {
     pub fn new(variants: &Variants) -> Result<Self> {
         let module = variants.plain_module(&Recipe::plain("bangs_near"))?;
-        let format = bangs_shadow::FORMAT;
-        let pipeline = targets::picture_pipeline(&variants.gpu, "bangs near", None, &module, "fs_main", format, None);
+        let into = PictureTarget { format: bangs_shadow::FORMAT, samples: 1, blend: None };
+        let pipeline = targets::picture_pipeline(&variants.gpu, "bangs near", None, &module, "fs_main", into);
         Ok(Self { pipeline })
     }
 

@@ -2,7 +2,7 @@
 
 use super::{ADD, HDR_FORMAT};
 use crate::render::shaders::Recipe;
-use crate::render::targets;
+use crate::render::targets::{self, PictureTarget};
 use crate::render::variants::Variants;
 use crate::{Gpu, Result};
 
@@ -38,7 +38,8 @@ impl BloomPass {
             immediate_size: 0,
         });
         let make = |entry, blend| {
-            targets::picture_pipeline(gpu, "bloom", Some(&pipeline_layout), &module, entry, HDR_FORMAT, blend)
+            let into = PictureTarget { format: HDR_FORMAT, samples: 1, blend };
+            targets::picture_pipeline(gpu, "bloom", Some(&pipeline_layout), &module, entry, into)
         };
         let (down, up) = (make("fs_down", None), make("fs_up", Some(ADD)));
         let sampler = targets::linear_sampler(gpu);

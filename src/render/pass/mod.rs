@@ -15,9 +15,9 @@ pub(crate) mod prepass;
 pub(crate) mod shadow;
 pub(crate) mod transparent;
 
-use super::Output;
 use super::shaders::Recipe;
 use super::variants::{Request, State};
+use super::{Far, Output};
 use crate::{Gpu, material::Material};
 
 /// Depth format of the prepass; of the colour pass where the device has no stencil beside 32 bits of depth.
@@ -116,14 +116,24 @@ impl<'a> Picture<'a> {
 
     /// The request of a pass that draws surfaces into it.
     pub fn request(&self, recipe: Recipe, drawn: Drawing) -> Request {
-        let mut recipe =
-            recipe.with("encode_srgb", encodes_srgb(self.output.format)).with("punctual", self.sight.punctual);
+        let mut recipe = recipe
+            .with("encode_srgb", encodes_srgb(self.output.format))
+            .with("punctual", self.sight.punctual)
+            .with("host_depth", self.output.depth.is_some());
         if let Some(channel) = self.sight.channel {
             recipe = recipe.with("channel", true).with(&format!("channel_{}", channel.replace('-', "_")), true);
         }
         let Drawing { cull, blend, write_depth, mark } = drawn;
-        let depth =
-            wgpu::DepthStencilState { format: self.depth_format, stencil: mark.stencil(), ..depth_state(write_depth) };
+        let nearer = match self.output.depth.map_or(Far::Zero, |depth| depth.far) {
+            Far::Zero => wgpu::CompareFunction::GreaterEqual,
+            Far::One => wgpu::CompareFunction::LessEqual,
+        };
+        let depth = wgpu::DepthStencilState {
+            format: self.depth_format,
+            depth_compare: Some(nearer),
+            stencil: mark.stencil(),
+            ..depth_state(write_depth)
+        };
         let target = wgpu::ColorTargetState {
             format: self.output.format,
             blend: blend.then_some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),

@@ -4,9 +4,10 @@ use super::encodes_srgb;
 use crate::render::layout::Filled;
 use crate::render::numbers::{post_numbers, put_post};
 use crate::render::shaders::Recipe;
+use crate::render::targets::PictureTarget;
 use crate::render::uploads::Uploads;
 use crate::render::variants::Variants;
-use crate::render::{Background, Output, bind, targets};
+use crate::render::{Background, Output, Target, bind, targets};
 use crate::scene::Post;
 use crate::{Gpu, Result};
 
@@ -19,7 +20,15 @@ pub(crate) struct PostPass {
     sampler: wgpu::Sampler,
     numbers: Filled,
     uniform: wgpu::Buffer,
-    pipeline: (bool, wgpu::RenderPipeline),
+    pipeline: (Kind, wgpu::RenderPipeline),
+}
+
+/// What pipelines differ by: whether edges are smoothed, whether it is laid over what is there, and samples of the target.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Kind {
+    smooths: bool,
+    is_over: bool,
+    samples: u32,
 }
 
 /// What the pass reads and writes.
@@ -30,6 +39,8 @@ pub(crate) struct PostInputs<'a> {
     pub group: &'a wgpu::BindGroup,
     pub target: &'a wgpu::TextureView,
 }
+
+const PLAIN: Kind = Kind { smooths: false, is_over: false, samples: 1 };
 
 impl PostPass {
     pub fn new(variants: &Variants, output: Output) -> Result<Self> {
@@ -42,7 +53,7 @@ impl PostPass {
             immediate_size: 0,
         });
         Ok(Self {
-            pipeline: (false, pipeline(variants, output, &pipeline_layout, false)?),
+            pipeline: (PLAIN, pipeline(variants, output, &pipeline_layout, PLAIN)?),
             output,
             pipeline_layout,
             layout,
@@ -62,11 +73,15 @@ impl PostPass {
         targets::picture_group(gpu, &self.layout, Some(&self.uniform), &[picture, spread], &self.sampler)
     }
 
-    /// Makes the pipeline anew where edges are smoothed otherwise.
-    pub fn fit(&mut self, variants: &Variants, post: Post) -> Result<()> {
-        let smooths = post.antialias && self.output.samples == 1;
-        if self.pipeline.0 != smooths {
-            self.pipeline = (smooths, pipeline(variants, self.output, &self.pipeline_layout, smooths)?);
+    /// Makes the pipeline anew where edges are smoothed otherwise, or for another kind of target.
+    pub fn fit(&mut self, variants: &Variants, post: Post, target: &Target<'_>) -> Result<()> {
+        let kind = Kind {
+            smooths: post.antialias && self.output.samples == 1,
+            is_over: target.keeps_color,
+            samples: target.samples(self.output),
+        };
+        if self.pipeline.0 != kind {
+            self.pipeline = (kind, pipeline(variants, self.output, &self.pipeline_layout, kind)?);
         }
         Ok(())
     }
@@ -81,7 +96,8 @@ impl PostPass {
     ) {
         let bytes = self.numbers.fill(|numbers| put_post(numbers, inputs.post, inputs.background));
         uploads.write(encoder, &self.uniform, 0, bytes);
-        targets::draw_picture(encoder, "post", inputs.target, true, &self.pipeline.1, inputs.group, timestamps);
+        let (kind, pipeline) = &self.pipeline;
+        targets::draw_picture(encoder, "post", inputs.target, !kind.is_over, pipeline, inputs.group, timestamps);
     }
 }
 
@@ -89,9 +105,14 @@ fn pipeline(
     variants: &Variants,
     output: Output,
     layout: &wgpu::PipelineLayout,
-    smooths: bool,
+    kind: Kind,
 ) -> Result<wgpu::RenderPipeline> {
-    let recipe = Recipe::plain("post").with("encode_srgb", encodes_srgb(output.format)).with("antialias", smooths);
+    let recipe = Recipe::plain("post").with("encode_srgb", encodes_srgb(output.format)).with("antialias", kind.smooths);
     let module = variants.plain_module(&recipe)?;
-    Ok(targets::picture_pipeline(&variants.gpu, "post", Some(layout), &module, "fs_main", output.format, None))
+    let into = PictureTarget {
+        format: output.format,
+        samples: kind.samples,
+        blend: kind.is_over.then_some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
+    };
+    Ok(targets::picture_pipeline(&variants.gpu, "post", Some(layout), &module, "fs_main", into))
 }

@@ -112,6 +112,7 @@ impl Shot {
                 up: camera.up.map_or(to.up, Vec3::from),
                 fov_y_rad: camera.fov_y_deg.map_or(to.fov_y_rad, f32::to_radians),
                 near: camera.near.unwrap_or(to.near),
+                matrices: None,
             };
             let forward = to.target - to.eye;
             if forward.cross(to.up).length() <= 1e-6 * forward.length() * to.up.length() {

@@ -271,6 +271,7 @@ fn seen(reference: &Reference) -> Result<(View, Lights), String> {
             up: reference.camera.up.into(),
             fov_y_rad: reference.camera.fov_y_deg.to_radians(),
             near: reference.camera.near,
+            matrices: None,
         },
         background,
         ..View::default()
