@@ -51,7 +51,7 @@ pub use glam;
 pub use gpu::{AdapterInfo, Gpu};
 pub use look::{Look, LookFile};
 pub use render::{Background, Channel, Character, Far, GpuMemory, HostDepth, Output, Renderer, Target, View, shaders};
-pub use stage::{Actor, Stage};
+pub use stage::{Actor, Grid, Ground, Stage, StageShadow};
 pub use wgpu;
 
 /// What macros reach.

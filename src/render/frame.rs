@@ -10,6 +10,7 @@ use super::pass::bangs_shadow::{self, BangsShadowInputs};
 use super::pass::bloom::{BloomChain, BloomInputs, BloomPass};
 use super::pass::floor::FloorPass;
 use super::pass::glow::{self, GlowInputs};
+use super::pass::ground::GroundInputs;
 use super::pass::post::{PostInputs, PostPass};
 use super::pass::prepass::{self, PrepassInputs};
 use super::pass::shadow::{self, ShadowInputs};
@@ -52,6 +53,16 @@ pub(crate) enum Shown<'a> {
     Channel(&'a str),
     /// The floor of benches.
     Floor(&'a FloorPass),
+}
+
+/// A view that is drawn.
+struct Take<'a> {
+    view: &'a View,
+    target: &'a Target<'a>,
+    shown: Shown<'a>,
+    /// It is finished by [`Frame::encode_post`].
+    post: Option<Post>,
+    picture: Picture<'a>,
 }
 
 impl<'a> Shown<'a> {
@@ -104,7 +115,8 @@ impl Frame {
         let gpu = r.gpu().clone();
         // Maps are drawn from lights: of the frame they read the time alone.
         self.send_view(encoder, stage, &View::default());
-        stage.bodies.send(&gpu, &mut self.uploads, encoder, stage.lights.directional.to_light);
+        let to_light = stage.lights.directional.to_light;
+        stage.bodies.send(&gpu, &mut self.uploads, encoder, to_light, stage.ground.as_ref());
         // Skinned and morphed vertices; only where the pose has changed.
         self.encode_deform(r, encoder, &mut stage.bodies, clock);
         if with_maps {
@@ -127,7 +139,9 @@ impl Frame {
         clock: &Clock,
     ) -> Result<()> {
         let post = shown.post(stage, &target, r.output);
-        let pipelines = self.begin_view(r, encoder, stage, view, &target, shown, post)?;
+        let picture = Picture::new(r.gpu(), r.output, shown.sight(stage, post));
+        let take = Take { view, target: &target, shown, post, picture };
+        let pipelines = self.begin_view(r, encoder, stage, &take)?;
         if !matches!(shown, Shown::Floor(_)) {
             // Depth of all surfaces, and their normals and parts, where a material reads them.
             self.encode_prepass(r, encoder, stage, clock)?;
@@ -135,38 +149,46 @@ impl Frame {
         // Light that blooms, and how far it spreads.
         self.encode_glow(encoder, stage, post, clock);
         // One colour pass: opaque, outlines and transparent share their targets, so samples are resolved once.
-        let mut pass = self.begin_color_pass(r, encoder, view, target, post, shown, clock);
-        self.record_surfaces(&mut pass, stage, view, shown, &pipelines);
+        let mut pass = self.begin_color_pass(r, encoder, &take, clock);
+        self.record_surfaces(r, &mut pass, stage, &take, &pipelines)?;
         drop(pass);
         // Bloom, tone curve, background, smooth edges.
-        self.encode_post(encoder, view, &target, post, clock);
+        self.encode_post(encoder, &take, clock);
         Ok(())
     }
 
     /// Every draw of the colour pass.
     fn record_surfaces(
         &self,
+        r: &Renderer,
         pass: &mut wgpu::RenderPass<'_>,
         stage: &Stage,
-        view: &View,
-        shown: Shown<'_>,
+        take: &Take<'_>,
         pipelines: &[Drawables],
-    ) {
-        let Some(actors) = actors(stage, self.color_frame_group(stage)) else { return };
-        if let Shown::Floor(floor) = shown {
-            return floor.encode(pass, &actors);
+    ) -> Result<()> {
+        let frame = self.color_frame_group(stage);
+        let Some(actors) = actors(stage, frame) else { return Ok(()) };
+        if let Shown::Floor(floor) = take.shown {
+            floor.encode(pass, &actors);
+            return Ok(());
         }
         // Body, face, hair.
         opaque::encode(pass, &actors, pipelines);
         // Lines around them, hidden where a surface is nearer.
         outline::encode(pass, &actors, pipelines);
         // Coats of short hair over both.
-        fluff::encode(pass, &actors, pipelines, view.px_per_m(stage.places()));
+        fluff::encode(pass, &actors, pipelines, take.view.px_per_m(stage.places()));
         // Eyes and brows through the bangs.
         eyes_through::encode(pass, &actors, pipelines);
+        // What they stand on.
+        if let (Shown::Picture, Some(ground), Some(body)) = (take.shown, &stage.ground, &stage.bodies.ground) {
+            let inputs = GroundInputs { variants: &r.variants, picture: &take.picture, ground, body, frame };
+            r.ground().encode(pass, &inputs)?;
+        }
         // What is seen through, far before near.
-        let order = draw_list::transparent_order(&actors.bodies.list, view.camera.eye);
+        let order = draw_list::transparent_order(&actors.bodies.list, take.view.camera.eye);
         transparent::encode(pass, &actors, pipelines, &order);
+        Ok(())
     }
 
     /// Sends the numbers of a view.
@@ -181,11 +203,9 @@ impl Frame {
         r: &Renderer,
         encoder: &mut wgpu::CommandEncoder,
         stage: &Stage,
-        view: &View,
-        target: &Target<'_>,
-        shown: Shown<'_>,
-        post: Option<Post>,
+        take: &Take<'_>,
     ) -> Result<Vec<Drawables>> {
+        let Take { view, target, post, picture, .. } = take;
         if !stage.bodies.are_of(&stage.actors) {
             let message = "has other actors than when it was prepared; please prepare it before it is drawn".to_owned();
             return Err(Error::Argument { what: "stage".to_owned(), message });
@@ -193,7 +213,7 @@ impl Frame {
         let gpu = r.gpu().clone();
         self.send_view(encoder, stage, view);
         match post {
-            Some(post) => self.fit_post(r, view.size, post, target)?,
+            Some(post) => self.fit_post(r, view.size, *post, target)?,
             None if self.color_targets.as_ref().is_none_or(|t| t.size != view.size) => {
                 self.color_targets = Some(ColorTargets::new(&gpu, view.size, r.output));
             }
@@ -206,8 +226,7 @@ impl Frame {
             let group = frame_group(&gpu, &r.layouts, &self.uniform, &targets);
             self.prepass_targets = Some((targets, group));
         }
-        let picture = Picture::new(&gpu, r.output, shown.sight(stage, post));
-        stage.bodies.troupes.iter().map(|troupe| troupe.data().shown(&r.variants, &picture)).collect()
+        stage.bodies.troupes.iter().map(|troupe| troupe.data().shown(&r.variants, picture)).collect()
     }
 
     fn encode_deform(&self, r: &Renderer, encoder: &mut wgpu::CommandEncoder, bodies: &mut Bodies, clock: &Clock) {
@@ -282,17 +301,14 @@ impl Frame {
         }
     }
 
-    /// `post`: it is finished by [`Renderer::encode_post`].
     fn begin_color_pass<'a>(
         &self,
         r: &Renderer,
         encoder: &'a mut wgpu::CommandEncoder,
-        view: &View,
-        target: Target<'_>,
-        post: Option<Post>,
-        shown: Shown<'_>,
+        take: &Take<'_>,
         clock: &Clock,
     ) -> wgpu::RenderPass<'a> {
+        let Take { view, target, shown, post, .. } = *take;
         use wgpu::{LoadOp, Operations, StoreOp};
         let post = self.post_targets.as_ref().filter(|_| post.is_some());
         let own = post.map_or(self.color_targets.as_ref(), |p| Some(&p.color));
@@ -346,14 +362,8 @@ impl Frame {
         drawn.map_or(&self.group, |(_, group)| group)
     }
 
-    fn encode_post(
-        &mut self,
-        encoder: &mut wgpu::CommandEncoder,
-        view: &View,
-        target: &Target<'_>,
-        post: Option<Post>,
-        clock: &Clock,
-    ) {
+    fn encode_post(&mut self, encoder: &mut wgpu::CommandEncoder, take: &Take<'_>, clock: &Clock) {
+        let Take { view, target, post, .. } = *take;
         let Self { uploads, post: pass, post_targets, .. } = self;
         if let (Some(post), Some(targets), Some(pass)) = (post, post_targets, pass) {
             // What is kept is behind it.

@@ -151,6 +151,13 @@ impl Filled {
         Self { bytes: vec![0; layout.size], layout }
     }
 
+    /// The same of a struct that has members of others.
+    pub fn of_file(module: &str, imports: &[&str], name: &str) -> Self {
+        let texts = imports.iter().chain([&module]).map(|module| super::shaders::file(module));
+        let layout = Layout::of(&texts.collect::<Vec<_>>().join("\n"), name);
+        Self { bytes: vec![0; layout.size], layout }
+    }
+
     /// Its size, bytes.
     pub fn size(&self) -> u64 {
         self.layout.size as u64

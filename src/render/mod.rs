@@ -49,6 +49,7 @@ use numbers::frame_numbers;
 use pass::bangs_near::BangsNearPass;
 use pass::deform::DeformPass;
 use pass::floor::FloorPass;
+use pass::ground::GroundPass;
 use pass::{Picture, Sight};
 use shaders::Shaders;
 use upload::EmptyMaps;
@@ -109,8 +110,9 @@ pub struct Renderer {
     pub(crate) variants: Variants,
     layouts: Layouts,
     deform: DeformPass,
-    // Made when a character needs it.
+    // Made when a stage needs it.
     bangs_near: OnceLock<BangsNearPass>,
+    ground: OnceLock<GroundPass>,
     empty_maps: EmptyMaps,
     frame: Mutex<Frame>,
 }
@@ -165,6 +167,7 @@ impl Renderer {
                 frame: Mutex::new(Frame::new(gpu, &layouts)),
                 layouts,
                 bangs_near: OnceLock::new(),
+                ground: OnceLock::new(),
                 empty_maps: EmptyMaps::new(gpu),
             })
         })?
@@ -181,6 +184,11 @@ impl Renderer {
             let _ = self.bangs_near.set(BangsNearPass::new(&self.variants)?);
         }
         Ok(())
+    }
+
+    /// What draws grounds.
+    pub(crate) fn ground(&self) -> &GroundPass {
+        self.ground.get_or_init(|| GroundPass::new(self.gpu(), &self.layouts.frame))
     }
 
     /// What draws a character as the floor of benches.

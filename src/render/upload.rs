@@ -233,9 +233,14 @@ impl Renderer {
         Some(BangsAtlas::new(self.gpu(), self.bangs_near.get()?, fit, tiles))
     }
 
+    /// The shadow maps of a stage, or what stands for them.
+    pub(crate) fn shadow_view<'a>(&'a self, shadow: Option<&'a ShadowMap>) -> &'a wgpu::TextureView {
+        shadow.map_or(&self.empty_maps.shadow, |map| &map.view)
+    }
+
     /// Group 1 of a troupe, and the same while maps are drawn; where a map is missing, an empty one stands.
     pub(crate) fn troupe_groups(&self, crowd: &Crowd, of: &Troupe, shadow: Option<&ShadowMap>) -> [wgpu::BindGroup; 2] {
-        let EmptyMaps { bangs: no_bangs, shadow: no_shadow, gather, compare } = &self.empty_maps;
+        let EmptyMaps { bangs: no_bangs, gather, compare, .. } = &self.empty_maps;
         let group = |bangs: Option<&BangsAtlas>, shadow: Option<&ShadowMap>| {
             let (map, near) = bangs.map_or((no_bangs, no_bangs), |b| (&b.view, &b.near));
             let resources = [
@@ -244,7 +249,7 @@ impl Renderer {
                 wgpu::BindingResource::TextureView(map),
                 wgpu::BindingResource::TextureView(near),
                 wgpu::BindingResource::Sampler(gather),
-                wgpu::BindingResource::TextureView(shadow.map_or(no_shadow, |s| &s.view)),
+                wgpu::BindingResource::TextureView(self.shadow_view(shadow)),
                 wgpu::BindingResource::Sampler(compare),
             ];
             bind::group(self.gpu(), "actors", &self.layouts.character, resources)

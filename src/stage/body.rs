@@ -7,11 +7,12 @@ use rayon::prelude::*;
 
 use super::crowd::Crowd;
 use super::troupe::Troupe;
-use super::{Actor, Stage};
+use super::{Actor, Ground, Stage};
 use crate::render::looks::Edits;
 use crate::render::made::Made;
 use crate::render::numbers::ActorState;
 use crate::render::pass::Mark;
+use crate::render::pass::ground::GroundBody;
 use crate::render::pass::shadow::{ShadowFit, ShadowMap, ShadowRows};
 use crate::render::uploads::Uploads;
 use crate::render::vertex::{AffineRows, Instance};
@@ -28,6 +29,7 @@ pub(crate) struct Bodies {
     /// What the map of the whole stage is made from, and where it stands.
     pub world_map: WorldMap,
     pub crowd: Option<Crowd>,
+    pub ground: Option<GroundBody>,
     scratch: Scratch,
 }
 
@@ -214,8 +216,18 @@ impl Stage {
             body.has_moved = false;
         }
         let to_light = lights.directional.to_light.normalize_or(Vec3::Z);
-        bodies.fit(renderer, has_others, to_light, self.focus, self.casts_on_world);
-        Ok(())
+        let on_world = self.casts_on_world || self.ground.is_some();
+        let has_other_maps = bodies.fit(renderer, has_others, to_light, self.focus, on_world);
+        match &self.ground {
+            Some(ground) => {
+                let map = renderer.shadow_view(bodies.shadow.as_ref());
+                renderer.ground().embody(renderer.gpu(), &mut bodies.ground, ground, map, has_other_maps)
+            }
+            None => {
+                bodies.ground = None;
+                Ok(())
+            }
+        }
     }
 }
 
@@ -265,8 +277,15 @@ impl Bodies {
         list.iter_mut().for_each(|body| body.troupe = places[body.troupe]);
     }
 
-    /// Fits maps and lists to the bodies.
-    fn fit(&mut self, renderer: &Renderer, has_others: bool, to_light: Vec3, focus: Option<Vec3>, on_world: bool) {
+    /// Fits maps and lists to the bodies; whether there are other maps now.
+    fn fit(
+        &mut self,
+        renderer: &Renderer,
+        has_others: bool,
+        to_light: Vec3,
+        focus: Option<Vec3>,
+        on_world: bool,
+    ) -> bool {
         let gpu = renderer.gpu();
         let Self { list, scratch, .. } = self;
         scratch.volumes.clear();
@@ -285,6 +304,7 @@ impl Bodies {
         }
         self.number_eyes();
         self.fill_lists(to_light);
+        has_other_maps
     }
 
     /// Who has a shadow map of its own, those nearest to `focus` first; whether there are other maps now.
@@ -422,8 +442,18 @@ impl Bodies {
     }
 
     /// Sends what has changed: poses, materials, and what depends on places and light.
-    pub fn send(&mut self, gpu: &Gpu, uploads: &mut Uploads, encoder: &mut wgpu::CommandEncoder, to_light: Vec3) {
-        let Self { list, troupes, shadow, world_map, crowd, .. } = self;
+    pub fn send(
+        &mut self,
+        gpu: &Gpu,
+        uploads: &mut Uploads,
+        encoder: &mut wgpu::CommandEncoder,
+        to_light: Vec3,
+        ground: Option<&Ground>,
+    ) {
+        let Self { list, troupes, shadow, world_map, crowd, ground: body, .. } = self;
+        if let (Some(ground), Some(body)) = (ground, body) {
+            body.send(uploads, encoder, ground, &world_map.rows);
+        }
         for troupe in troupes.iter_mut() {
             troupe.send(uploads, encoder);
         }

@@ -3,9 +3,13 @@
 mod actor;
 pub(crate) mod body;
 pub(crate) mod crowd;
+mod ground;
+mod shadow;
 pub(crate) mod troupe;
 
 pub use actor::Actor;
+pub use ground::{Grid, Ground};
+pub use shadow::StageShadow;
 
 use glam::{Mat4, Vec3};
 
@@ -26,6 +30,8 @@ pub struct Stage {
     pub time_s: f32,
     /// What is done to the whole picture. Default: what the first actor's scene says.
     pub post: Option<Post>,
+    /// What they stand on. Default: nothing.
+    pub ground: Option<Ground>,
     /// Where shadows matter most, world space: as many actors as there may be
     /// ([`MOST_SHADOWED`](crate::scene::MOST_SHADOWED)) have a shadow map of their own, those nearest to it first; the rest
     /// share one. Default: `None`, in their order.
@@ -65,6 +71,7 @@ impl Stage {
         if !self.time_s.is_finite() {
             return fault("time".to_owned(), format!("is {} s; expected a number", self.time_s));
         }
+        self.ground.as_ref().map_or(Ok(()), Ground::check)?;
         self.lights.check()
     }
 

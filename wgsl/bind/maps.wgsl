@@ -2,7 +2,7 @@
 import package::bind::actor::actors;
 import package::bind::vertex::Vertex;
 import package::lib::bangs::{BANGS_BLOCK, BANGS_TAPS, bangs_weight, esm_taps};
-import package::lib::shadow::{shadow_edge, shadow_place};
+import package::lib::shadow::{shadow_moved, shadow_place, shadow_share};
 
 @group(1) @binding(2) var bangs_map: texture_2d_array<f32>;
 // Nearest depth round each block of it.
@@ -39,11 +39,7 @@ fn shadow_from_world(actor: u32, position: vec3f) -> vec3f {
 fn shadow_receiver(v: Vertex, position: vec3f, normal: vec3f) -> vec4f {
     let a = &actors[v.actor];
     let at = shadow_from_world(v.actor, position);
-    // Most where the surface lies along the light.
-    let n_dot_l = dot(normal, a.shadow_to_light);
-    let along = sqrt(saturate(1.0 - n_dot_l * n_dot_l));
-    let moved = normal * along + a.shadow_to_light * 0.5;
-    let by = shadow_place(moved, a.shadow_right, a.shadow_up, a.shadow_to_light, 1.0) - 0.5;
+    let by = shadow_moved(normal, a.shadow_right, a.shadow_up, a.shadow_to_light);
     return vec4f(at + by * a.shadow_bias, a.shadow_layer);
 }
 
@@ -52,26 +48,8 @@ fn shadow_lit(actor: u32, at: vec4f, wanted: bool) -> f32 {
     let layer = i32(round(at.w));
     let spread = actors[actor].shadow_spread;
     let is_outside = any(at.xy <= vec2f(0.0)) || any(at.xy >= vec2f(1.0)) || layer < 0;
-    // A count of 0 rather than a branch: software rasterizers walk both sides of branches, but leave loops early.
-    let corners = select(4, 0, is_outside || !wanted);
-    var lit = select(0.0, 4.0, corners == 0);
-    for (var i = 0; i < corners; i++) {
-        let offset = vec2f(f32(i % 2), f32(i / 2)) * 2.0 - 1.0;
-        lit += textureSampleCompareLevel(
-            shadow_map, shadow_sampler, at.xy + offset * spread, layer, at.z
-        );
-    }
-    // Where the corners agree, so does what lies between: most of a picture.
-    let agree = lit == 0.0 || lit == 4.0;
-    let others = select(5, 0, agree);
-    for (var i = 0; i < others; i++) {
-        // The middle of the three rows, then of the columns.
-        let offset = select(vec2f(f32(i) - 1.0, 0.0), vec2f(0.0, f32(i - 3) * 2.0 - 1.0), i >= 3);
-        lit += textureSampleCompareLevel(
-            shadow_map, shadow_sampler, at.xy + offset * spread, layer, at.z
-        );
-    }
-    return min(shadow_edge(lit / select(9.0, 4.0, agree)), actors[actor].key_light);
+    let lit = shadow_share(shadow_map, shadow_sampler, at.xyz, layer, spread, wanted && !is_outside);
+    return min(lit, actors[actor].key_light);
 }
 
 // Share of light that a layer lets through to a place of the map. What lies beyond its border is lit, and so is what the

@@ -1,9 +1,67 @@
-// Shadow of a character on itself.
+// Shadows of actors, on themselves and on anything else. No binding, no import: a host may paste this page before a shader of
+// its own and call `stage_shadow`.
 
-// Place in the map of a point `d` metres from its middle, `scale` being one over its width: u, v downwards, and depth that
+// The map of a whole stage, as `StageShadow::numbers` holds it.
+struct StageShadow {
+    // Axes of the map, unit, world space; one over its width, 1/m.
+    right: vec3f,
+    scale: f32,
+    up: vec3f,
+    // Distance by which a receiver is moved towards the light, and between two taps: shares of the width.
+    bias: f32,
+    to_light: vec3f,
+    spread: f32,
+    // World space, metres.
+    middle: vec3f,
+    layer: f32,
+}
+
+// Share of the key light that arrives at a place of the world with this unit normal: 1 where nothing casts on it.
+fn stage_shadow(
+    s: StageShadow, map: texture_depth_2d_array, map_sampler: sampler_comparison, position: vec3f, normal: vec3f
+) -> f32 {
+    let at = shadow_place(position - s.middle, s.right, s.up, s.to_light, s.scale)
+        + shadow_moved(normal, s.right, s.up, s.to_light) * s.bias;
+    // What lies behind the map's range takes the shadow of all that is in it.
+    let place = vec3f(at.xy, min(at.z, 1.0));
+    let is_outside = any(at.xy <= vec2f(0.0)) || any(at.xy >= vec2f(1.0)) || s.layer < 0.0;
+    return shadow_share(map, map_sampler, place, i32(round(s.layer)), s.spread, !is_outside);
+}
+
+// Place in a map of a point `d` metres from its middle, `scale` being one over its width: u, v downwards, and depth that
 // grows away from the light, each 0..1.
 fn shadow_place(d: vec3f, right: vec3f, up: vec3f, to_light: vec3f, scale: f32) -> vec3f {
     return vec3f(dot(right, d) * scale + 0.5, 0.5 - dot(up, d) * scale, 0.5 - dot(to_light, d) * scale);
+}
+
+// By how much a receiver is moved off its surface, towards the light: most where it lies along the light.
+fn shadow_moved(normal: vec3f, right: vec3f, up: vec3f, to_light: vec3f) -> vec3f {
+    let n_dot_l = dot(normal, to_light);
+    let along = sqrt(saturate(1.0 - n_dot_l * n_dot_l));
+    let moved = normal * along + to_light * 0.5;
+    return shadow_place(moved, right, up, to_light, 1.0) - 0.5;
+}
+
+// Share of light at a place of a layer, with a drawn edge. What the caller does not need (`wanted`) is lit.
+fn shadow_share(
+    map: texture_depth_2d_array, map_sampler: sampler_comparison, at: vec3f, layer: i32, spread: f32, wanted: bool
+) -> f32 {
+    // A count of 0 rather than a branch: software rasterizers walk both sides of branches, but leave loops early.
+    let corners = select(4, 0, !wanted);
+    var lit = select(0.0, 4.0, corners == 0);
+    for (var i = 0; i < corners; i++) {
+        let offset = vec2f(f32(i % 2), f32(i / 2)) * 2.0 - 1.0;
+        lit += textureSampleCompareLevel(map, map_sampler, at.xy + offset * spread, layer, at.z);
+    }
+    // Where the corners agree, so does what lies between: most of a picture.
+    let agree = lit == 0.0 || lit == 4.0;
+    let others = select(5, 0, agree);
+    for (var i = 0; i < others; i++) {
+        // The middle of the three rows, then of the columns.
+        let offset = select(vec2f(f32(i) - 1.0, 0.0), vec2f(0.0, f32(i - 3) * 2.0 - 1.0), i >= 3);
+        lit += textureSampleCompareLevel(map, map_sampler, at.xy + offset * spread, layer, at.z);
+    }
+    return shadow_edge(lit / select(9.0, 4.0, agree));
 }
 
 // Share of light with a drawn edge: the middle of what filtering spreads, which rounds teeth and corners off.

@@ -8,6 +8,7 @@ pub(crate) mod eyes_through;
 pub(crate) mod floor;
 pub(crate) mod fluff;
 pub(crate) mod glow;
+pub(crate) mod ground;
 pub(crate) mod opaque;
 pub(crate) mod outline;
 pub(crate) mod post;

@@ -78,6 +78,15 @@ impl ShadowFit {
     }
 }
 
+impl ShadowRows {
+    /// `StageShadow` of `wgsl/lib/shadow.wgsl`.
+    pub fn numbers(&self) -> [[f32; 4]; 4] {
+        let row = |v: Vec3, n: f32| v.extend(n).to_array();
+        let layer = self.layer.map_or(-1.0, |layer| layer as f32);
+        [row(self.right, self.scale), row(self.up, self.bias), row(self.to_light, self.spread), row(self.middle, layer)]
+    }
+}
+
 impl ShadowMap {
     /// Makes room for so many layers; whether there are other ones now.
     pub fn fit(map: &mut Option<Self>, gpu: &Gpu, side: u32, wanted: u32) -> bool {

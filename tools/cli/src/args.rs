@@ -7,7 +7,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use hikage::color::Srgb;
 use hikage::motion::Stance;
 use hikage::scene::Framing;
-use hikage::{Background, Channel};
+use hikage::{Background, Channel, Grid, Ground};
 
 /// Longest side of a picture: the size of textures that every adapter has.
 pub(crate) const MAX_SIDE: u32 = 8192;
@@ -92,6 +92,18 @@ pub(crate) fn samples(text: &str) -> Result<u32, String> {
         "4" => Ok(4),
         _ => Err("expected 1 or 4".into()),
     }
+}
+
+/// `#RRGGBB`, `grid` or `shadow`.
+pub(crate) fn ground(text: &str) -> Result<Ground, String> {
+    Ok(match text {
+        "shadow" => Ground { shadow_only: true, ..Ground::default() },
+        "grid" => Ground { grid: Some(Grid::default()), ..Ground::default() },
+        color => {
+            let color = Srgb::from_hex(color).ok_or("expected #RRGGBB, grid or shadow")?;
+            Ground { color: color.to_linear(), ..Ground::default() }
+        }
+    })
 }
 
 /// `none` or `#RRGGBB`.

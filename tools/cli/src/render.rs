@@ -7,7 +7,7 @@ use glam::Vec3;
 use hikage::motion::{Pose, Stance};
 use hikage::picture::{encode_png, write_atomic};
 use hikage::scene::Scene;
-use hikage::{Actor, Background, Channel, GpuMemory, Output, Renderer, Stage, View};
+use hikage::{Actor, Background, Channel, GpuMemory, Ground, Output, Renderer, Stage, View};
 use serde::Serialize;
 
 use crate::args::{self, LookName, ViewName};
@@ -27,7 +27,7 @@ Examples:
   hikage render girl.vrm -o girl.png --view bust --yaw 25 --pose relaxed
   hikage render girl.vrm -o icon.png --size 256x256 --background none --expression happy,blink=0.3
   hikage render girl.vrm -o again.png --shot shot.json
-  hikage render girl.vrm boy.vrm@0.8,0,-0.2@yaw=-30 -o both.png --view full
+  hikage render girl.vrm boy.vrm@0.8,0,-0.2@yaw=-30 -o both.png --view full --ground grid
 
 SHOT.json (every field may be missing; options given here win over it):
   {\"size\": [1024, 1024], \"background\": \"#808080\", \"ambient\": [0.1, 0.1, 0.1],
@@ -61,6 +61,9 @@ pub(crate) struct Args {
     /// Background: none (transparent) or #RRGGBB [default: #808080].
     #[arg(long, value_name = "COLOR", value_parser = args::background)]
     background: Option<Background>,
+    /// What they stand on: a colour, a grid, or their shadow alone.
+    #[arg(long, value_name = "#RRGGBB|grid|shadow", value_parser = args::ground)]
+    ground: Option<Ground>,
     /// Samples a pixel.
     #[arg(long, value_name = "1|4", default_value = "4", value_parser = args::samples)]
     samples: u32,
@@ -180,6 +183,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         actors.push(Actor::new(&character).at(model.position, model.yaw_rad).posed(pose));
     }
     let mut stage = Stage::of(actors);
+    stage.ground.clone_from(&args.ground);
     let view = seen(args, &shot, &mut stage)?;
     spinner.step("drawing");
     let picture = timed(&mut ms.first_frame, || renderer.render(&mut stage, &view))?;
