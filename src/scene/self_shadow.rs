@@ -9,7 +9,7 @@ crate::part! {
     SelfShadow {
         /// Texels along a side of a map.
         side: u32 = 1024, in 128..=4096;
-        /// Width that edges are smoothed over, metres; no less than three texels. What is smaller casts no shadow of its own,
+        /// Width that edges are smoothed over, metres; from three to five texels. What is smaller casts no shadow of its own,
         /// and a third of the width is soft.
         soft_width_m: f32 = 0.01, in 0.0..=0.05;
         /// How far a receiver is moved along its normal before it is tested, texels: too little and surfaces shade themselves

@@ -38,7 +38,7 @@ struct Actor {
     // Distance by which a receiver is moved along its normal, shares of the width.
     shadow_bias: f32,
     shadow_to_light: vec3f,
-    // Distance between two taps, shares of the width.
+    // Width of the edge, shares of the width.
     shadow_spread: f32,
     // Its middle, world space.
     shadow_middle: vec3f,

@@ -7,7 +7,7 @@ struct StageShadow {
     right: vec3f,
     scale: f32,
     up: vec3f,
-    // Distance by which a receiver is moved towards the light, and between two taps: shares of the width.
+    // Distance by which a receiver is moved towards the light, and width of the edge: shares of the width.
     bias: f32,
     to_light: vec3f,
     spread: f32,
@@ -42,26 +42,45 @@ fn shadow_moved(normal: vec3f, right: vec3f, up: vec3f, to_light: vec3f) -> vec3
     return shadow_place(moved, right, up, to_light, 1.0) - 0.5;
 }
 
-// Share of light at a place of a layer, with a drawn edge. What the caller does not need (`wanted`) is lit.
+// Share of light at a place of a layer, with a drawn edge: the mean over a square `spread` wide (share of the map's width, 3 to
+// 5 texels). What the caller does not need (`wanted`) is lit.
 fn shadow_share(
     map: texture_depth_2d_array, map_sampler: sampler_comparison, at: vec3f, layer: i32, spread: f32, wanted: bool
 ) -> f32 {
+    let size = vec2f(textureDimensions(map));
+    let half = spread * size.x * 0.5;
+    let p = at.xy * size - 0.5;
+    // Six by six texels, four at a time.
+    let first = floor(p) - 2.0;
+    let f = p - floor(p);
     // A count of 0 rather than a branch: software rasterizers walk both sides of branches, but leave loops early.
     let corners = select(4, 0, !wanted);
-    var lit = select(0.0, 4.0, corners == 0);
+    var texels = select(0.0, 16.0, corners == 0);
+    var lit = 0.0;
     for (var i = 0; i < corners; i++) {
-        let offset = vec2f(f32(i % 2), f32(i / 2)) * 2.0 - 1.0;
-        lit += textureSampleCompareLevel(map, map_sampler, at.xy + offset * spread, layer, at.z);
+        let place = vec2f(f32(i % 2), f32(i / 2)) * 4.0;
+        let four = textureGatherCompare(map, map_sampler, (first + place + 1.0) / size, layer, at.z);
+        texels += dot(four, vec4f(1.0));
+        lit += shadow_weighted(four, place - 2.0 - f, half);
     }
     // Where the corners agree, so does what lies between: most of a picture.
-    let agree = lit == 0.0 || lit == 4.0;
+    let agree = texels == 0.0 || texels == 16.0;
     let others = select(5, 0, agree);
     for (var i = 0; i < others; i++) {
         // The middle of the three rows, then of the columns.
-        let offset = select(vec2f(f32(i) - 1.0, 0.0), vec2f(0.0, f32(i - 3) * 2.0 - 1.0), i >= 3);
-        lit += textureSampleCompareLevel(map, map_sampler, at.xy + offset * spread, layer, at.z);
+        let place = select(vec2f(f32(i), 1.0), vec2f(1.0, f32(i - 3) * 2.0), i >= 3) * 2.0;
+        let four = textureGatherCompare(map, map_sampler, (first + place + 1.0) / size, layer, at.z);
+        lit += shadow_weighted(four, place - 2.0 - f, half);
     }
-    return shadow_edge(lit / select(9.0, 4.0, agree));
+    return select(shadow_edge(lit / (4.0 * half * half)), texels / 16.0, agree);
+}
+
+// Four texels, the first of them `d` texels from the middle, by the share of each that lies in the square.
+fn shadow_weighted(four: vec4f, d: vec2f, half: f32) -> f32 {
+    let x = saturate(half + 0.5 - abs(vec2f(d.x, d.x + 1.0)));
+    let y = saturate(half + 0.5 - abs(vec2f(d.y, d.y + 1.0)));
+    // (0, 1), (1, 1), (1, 0), (0, 0).
+    return y.y * dot(x, four.xy) + y.x * dot(x, four.wz);
 }
 
 // Share of light with a drawn edge: the middle of what filtering spreads, which rounds teeth and corners off.

@@ -70,8 +70,8 @@ impl ShadowFit {
             to_light,
             scale: 1.0 / width / scale,
             bias: self.settings.bias_texels * texel,
-            // Three taps of a texel each span the edge.
-            spread: (self.settings.soft_width_m / (3.0 * width)).max(texel),
+            // The shader weighs six texels along a side.
+            spread: (self.settings.soft_width_m / width).clamp(3.0 * texel, 5.0 * texel),
             middle,
             layer: None,
         }
