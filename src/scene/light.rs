@@ -17,7 +17,8 @@ pub struct Lights {
     pub ambient: Ambient,
     /// Point and spot lights; at most [`MAX_PUNCTUAL_LIGHTS`].
     ///
-    /// All lights are accumulated before the toon band is cut, so that many lights still give one clean edge.
+    /// Each cuts a band of its own, adds the lit colour where it shines and casts no shadow; on its far side it shows the shade
+    /// colour only as far as it outshines the key light, whose shade that is.
     pub punctual: Vec<PunctualLight>,
     /// Which of their two sets materials with a [`ShadeRamp`](crate::material::ShadeRamp) show: 0 warm, 1 cool, as a time of
     /// day sets it. Range 0..1. Default: `None`, by the colour of the key light.

@@ -5,7 +5,6 @@ import package::bind::lights::punctual_light;
 import package::bind::shown::shown;
 import package::bind::varying::Varying;
 import package::lib::color::srgb_from_linear;
-import package::lib::light::{accumulated_n_dot_l, luminance};
 import package::lib::normal::normalize_or;
 import package::material::{
     stage_bend, stage_contour, stage_lamps, stage_model, stage_paint, stage_shine, stage_surface, stage_uv, stage_vanish,
@@ -29,10 +28,11 @@ struct Surface {
     tangent: vec3f,
     // World, unit, to the viewer.
     view: vec3f,
-    // Of all lights together: N·L by their luminance, radiance, and the share of the directional one.
+    // Of the key light: N·L and radiance.
     n_dot_l: f32,
     light: vec3f,
-    directional: f32,
+    // Radiance of lamps that it faces.
+    lamps: vec3f,
 }
 
 // Where light ends on a toon surface. Looks of the stage `shade` talk to each other through it.
@@ -40,6 +40,8 @@ struct Border {
     // Colours in light and in shade.
     lit: vec3f,
     shade: vec3f,
+    // How far the border of the model is shifted.
+    shift: f32,
     // Share of light with the border of the model, and with that of the transition or the ramp.
     shading: f32,
     soft: f32,
@@ -113,22 +115,18 @@ fn lit_by_lamps(surface: Surface) -> Surface {
     var s = surface;
     s.light = frame.light_color;
     s.n_dot_l = dot(s.normal, frame.to_light);
-    s.directional = 1.0;
-    @if(punctual) {
-        var weight = luminance(s.light);
-        var sum = s.n_dot_l * weight;
-        for (var i = 0u; i < frame.punctual_count; i++) {
-            let arriving = punctual_light(i, s.at.world_position);
-            let radiance = arriving.radiance;
-            let w = luminance(radiance);
-            s.light += radiance;
-            weight += w;
-            sum += dot(s.normal, arriving.to_light) * w;
-        }
-        s.n_dot_l = accumulated_n_dot_l(sum, weight);
-        s.directional = luminance(frame.light_color) / max(weight, 1e-6);
+    @if(punctual) for (var i = 0u; i < frame.punctual_count; i++) {
+        let arriving = punctual_light(i, s.at.world_position);
+        s.lamps += arriving.radiance * smoothstep(-0.2, 0.2, dot(s.normal, arriving.to_light));
     }
     return stage_lamps(s);
+}
+
+// What lamps add to a surface that they light by so much, as it takes light.
+fn taken_from_lamps(surface: Surface, lamps: vec3f) -> vec3f {
+    var s = surface;
+    s.light = frame.light_color + lamps;
+    return max(stage_lamps(s).light - surface.light, vec3f(0.0));
 }
 
 // What a model starts from.
@@ -140,6 +138,7 @@ fn shaded_of(s: Surface) -> Shaded {
     l.shading = 1.0;
     l.own_lit = 1.0;
     l.light = s.light;
+    @if(punctual) l.light += taken_from_lamps(s, s.lamps);
     return l;
 }
 

@@ -1,4 +1,4 @@
-// Punctual lights and their accumulation: all lights are summed first and the toon band is cut once.
+// Punctual lights.
 
 // Luminance of linear sRGB primaries (Rec. 709).
 fn luminance(color: vec3f) -> f32 {
@@ -23,9 +23,10 @@ fn spot_attenuation(cos_angle: f32, scale: f32, offset: f32) -> f32 {
     return x * x;
 }
 
-// Mean of the lights' n.l, weighted by luminance: for a single light its own n.l. 1e-6 guards total darkness.
-fn accumulated_n_dot_l(weighted_sum: f32, weight: f32) -> f32 {
-    return weighted_sum / max(weight, 1e-6);
+// How far a lamp shows the shade colour on the side that it does not light: as far as it outshines the key light, whose shade
+// that is. 1e-6: no lamp is none.
+fn lamp_shade(lamp: f32, key: f32) -> f32 {
+    return saturate(1.0 - key / max(lamp, 1e-6));
 }
 
 // Light as a material takes it: its luminance between two bounds, and its colour as far as `monochrome` (0..1) leaves it.

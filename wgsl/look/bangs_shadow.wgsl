@@ -25,7 +25,7 @@ fn bangs_shadow_shade(s: Surface, border: Border) -> Border {
     // What is in shade already gets no darker.
     var light = b.shading;
     @if(shade_ramp) light = ceil(b.soft);
-    let share = light * s.directional * b.of_face;
+    let share = light * b.of_face;
     var lit = bangs_lit(s.at.actor, s.at.bangs, BANGS_LAYER, share > 0.0);
     @if(bangs_lids) lit = min(lit, bangs_lit(s.at.actor, s.at.bangs, LIDS_LAYER, share > 0.0));
     b.received = share * bangs_share(lit, m.edges, m.strength);

@@ -21,9 +21,8 @@ fn cast_shadow_shade(s: Surface, border: Border) -> Border {
     var wanted = b.shading;
     @if(shade_ramp) wanted = max(wanted, b.soft);
     b.own_lit = shadow_lit(s.at.actor, s.at.shadow, wanted > 0.0);
-    // Of the key light alone, and on a face with a map only where that leaves it to normal shading.
-    let share = s.directional * b.of_body;
-    let left = 1.0 - (1.0 - b.own_lit) * material.cast_shadow.received * share;
+    // On a face with a map only where that leaves it to normal shading.
+    let left = 1.0 - (1.0 - b.own_lit) * material.cast_shadow.received * b.of_body;
     b.shading *= left;
     b.soft *= left;
     @if(channel_self_shadow) shown = vec3f(b.own_lit);

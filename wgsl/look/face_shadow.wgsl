@@ -61,7 +61,7 @@ fn face_shadow_shade(s: Surface, border: Border) -> Border {
         @if(soft) soft = face_masked(soft, side, back, angle);
     }
     let region = map.b;
-    let strength = map.a * s.directional;
+    let strength = map.a;
     b.of_face = 1.0 - region;
     // The map's region fades over the jaw, under which shade must be whole.
     b.of_body = saturate(4.0 - 4.0 * b.of_face);

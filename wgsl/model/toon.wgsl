@@ -1,9 +1,10 @@
 // Two tones with a border between them (MToon), or a painted ramp.
 import package::bind::frame::frame;
-import package::bind::lights::ambient;
+import package::bind::lights::{ambient, punctual_light};
 import package::bind::shown::shown;
-import package::bind::surface::{Border, Shaded, Surface, shaded_of};
+import package::bind::surface::{Border, Shaded, Surface, shaded_of, taken_from_lamps};
 import package::bind::uv::texture_uv;
+import package::lib::light::{lamp_shade, luminance};
 import package::lib::mtoon::{mtoon_direct, mtoon_gi, mtoon_shading};
 import package::look::shade_ramp::ramp_color;
 import package::material::{material, stage_shade, toon_shift_texture, toon_shift_texture_sampler};
@@ -31,6 +32,7 @@ fn toon_border(s: Surface) -> Border {
         toon_shift_texture, toon_shift_texture_sampler, texture_uv(s.uv, material.toon.shift_texture_uv)
     ).r;
     b.shading = mtoon_shading(s.n_dot_l, shift, material.toon.toony);
+    b.shift = shift;
     b.soft = 1.0;
     @if(soft) b.soft = smoothstep(-soft_width(), soft_width(), s.n_dot_l + shift);
     b = stage_shade(s, b);
@@ -57,9 +59,28 @@ fn toon_model(s: Surface) -> Shaded {
         var ramped = ramp_color(s.uv, b.lit, b.shade, b.soft);
         // By its share and not along the ramp, whose terminator is much narrower than the shadow's soft edge.
         @if(bangs_shadow) ramped = mix(ramped, ramp_color(s.uv, b.lit, b.shade, 0.0), b.received);
-        l.direct = ramped * l.light;
+        l.direct = ramped * s.light;
         @if(channel_shade_ramp) shown = vec3f(b.soft * (1.0 - b.received));
     }
-    @if(!shade_ramp) l.direct = mtoon_direct(b.lit * b.tint, b.shade, b.shading, l.light) * b.bangs;
+    @if(!shade_ramp) l.direct = mtoon_direct(b.lit * b.tint, b.shade, b.shading, s.light) * b.bangs;
+    @if(punctual) l.direct += light_of_lamps(s, b);
     return l;
+}
+
+// What lamps add: each has a border of its own, and one shade at most.
+fn light_of_lamps(s: Surface, b: Border) -> vec3f {
+    var lit = vec3f(0.0);
+    var shade = vec3f(0.0);
+    let key = luminance(frame.light_color);
+    @if(punctual) for (var i = 0u; i < frame.punctual_count; i++) {
+        let arriving = punctual_light(i, s.at.world_position);
+        let shading = mtoon_shading(dot(s.normal, arriving.to_light), b.shift, material.toon.toony);
+        lit += arriving.radiance * shading;
+        shade += arriving.radiance * ((1.0 - shading) * lamp_shade(luminance(arriving.radiance), key));
+    }
+    let all = lit + shade;
+    let taken = taken_from_lamps(s, all) / max(all, vec3f(1e-6));
+    var color = b.lit;
+    @if(shade_ramp) color = ramp_color(s.uv, b.lit, b.shade, 1.0);
+    return (color * lit + b.shade * shade) * taken;
 }

@@ -62,23 +62,35 @@ fn one_direction_of_light_by_lamp_or_sun_is_the_same() {
 }
 
 #[test]
-fn many_lights_still_cut_one_band() {
+fn each_lamp_has_a_band_of_its_own_and_none_shines_through() {
     let gpu = gpu();
     let scene = scene(vec![(sphere(0.5, 96, 192), two_tone())]);
     let mut view = view(256, 4.0);
-    for x in [-2.0, 2.0] {
-        view.lights.punctual.push(PunctualLight {
-            position: Vec3::new(x, 1.0, 3.0),
-            color: LinearRgb::WHITE,
-            intensity: 3.0,
-            range: 0.0,
-            spot: None,
-        });
+    view.lights.ambient = Ambient::uniform(LinearRgb::splat(0.0));
+    view.lights.directional.to_light = Vec3::Y;
+    let lamp = |position: Vec3, color| PunctualLight {
+        position,
+        color: LinearRgb(color),
+        intensity: 8.0,
+        range: 0.0,
+        spot: None,
+    };
+    let alone = render(&gpu, &scene, &view);
+    // One behind, to the left: what does not face it is as it was, to the byte.
+    view.lights.punctual = vec![lamp(Vec3::new(-3.0, 0.0, -1.0), [0.0, 0.3, 1.0])];
+    let behind = render(&gpu, &scene, &view);
+    for x in [110, 128, 180, 200] {
+        for y in [60, 100, 140, 180] {
+            assert_eq!(pixel(&alone, x, y), pixel(&behind, x, y), "{x}, {y}");
+        }
     }
-    let image = render(&gpu, &scene, &view);
-    // Along the middle column the picture goes from light to shade once.
-    let reds: Vec<u8> = (40..216).map(|y| pixel(&image, 128, y)[0]).collect();
-    let lit = reds[20];
-    let turns = reds.windows(2).filter(|w| (w[0] > lit / 2 + 20) != (w[1] > lit / 2 + 20)).count();
-    assert!(turns <= 1, "{turns} edges of shade in one column");
+    assert!(pixel(&behind, 46, 128)[2] > pixel(&alone, 46, 128)[2] + 20, "its own side is lit");
+    // One to each side: two edges, and between them what neither reaches.
+    view.lights.punctual =
+        vec![lamp(Vec3::new(-3.0, 0.0, -1.0), [0.0, 0.3, 1.0]), lamp(Vec3::new(3.0, 0.0, -1.0), [0.0, 0.3, 1.0])];
+    let both = render(&gpu, &scene, &view);
+    let blues: Vec<u8> = (40..216).map(|x| pixel(&both, x, 150)[2]).collect();
+    let middle = blues[88];
+    let edges = blues.windows(2).filter(|w| (w[0] > middle + 10) != (w[1] > middle + 10)).count();
+    assert_eq!((edges, pixel(&both, 128, 150)), (2, pixel(&alone, 128, 150)), "{blues:?}");
 }
