@@ -3,8 +3,7 @@
 use super::Pose;
 use crate::{
     Error, Result,
-    material::{Material, Shading},
-    scene::{ColorTarget, Expression, ExpressionOverride, Scene},
+    scene::{Expression, ExpressionOverride, Scene},
 };
 
 const BLINK: &[&str] = &["blink", "blinkLeft", "blinkRight"];
@@ -62,7 +61,7 @@ impl Pose {
         let (blink, look_at, mouth) =
             (keep(|e| e.override_blink), keep(|e| e.override_look_at), keep(|e| e.override_mouth));
         self.morph_weights = scene.nodes.iter().map(|n| n.morph_weights.clone()).collect();
-        self.materials.clear();
+        self.shifts.clear();
         for (expression, &weight) in expressions.iter().zip(&input) {
             let name = expression.name.as_str();
             let mut factor = 1.0;
@@ -78,7 +77,7 @@ impl Pose {
                 weight * factor
             };
             if weight > 0.0 {
-                self.add_expression(scene, expression, weight);
+                self.add_expression(expression, weight);
             }
         }
         Ok(())
@@ -94,67 +93,13 @@ impl Pose {
         let _ = self.set_expressions(scene, &known);
     }
 
-    fn add_expression(&mut self, scene: &Scene, expression: &Expression, weight: f32) {
+    fn add_expression(&mut self, expression: &Expression, weight: f32) {
         for bind in &expression.morphs {
             if let Some(w) = self.morph_weights.get_mut(bind.node).and_then(|n| n.get_mut(bind.target)) {
                 *w += bind.weight * weight;
             }
         }
-        for bind in &expression.colors {
-            let Some(rest) = scene.materials.get(bind.material) else { continue };
-            let posed = self.materials.entry(bind.material).or_insert_with(|| rest.clone());
-            let (from, to) = (color_of(rest, bind.target), bind.value);
-            let shift: [f32; 4] = std::array::from_fn(|i| (to[i] - from[i]) * weight);
-            add_color(posed, bind.target, shift);
-        }
-        for bind in &expression.uv_transforms {
-            let Some(rest) = scene.materials.get(bind.material) else { continue };
-            let posed = self.materials.entry(bind.material).or_insert_with(|| rest.clone());
-            posed.each_texture(&mut |_, read, texture| {
-                // All but those that do not lie on the surface: the matcap and ramps.
-                for axis in (0..2).filter(|_| read.by_uv) {
-                    texture.transform.scale[axis] += (bind.scale[axis] - 1.0) * weight;
-                    texture.transform.offset[axis] += bind.offset[axis] * weight;
-                }
-            });
-        }
-    }
-}
-
-fn color_of(material: &Material, target: ColorTarget) -> [f32; 4] {
-    let opaque = |[r, g, b]: [f32; 3]| [r, g, b, 1.0];
-    match target {
-        ColorTarget::Color => material.base.color,
-        ColorTarget::EmissionColor => opaque(material.emission.color),
-        ColorTarget::ShadeColor => match &material.shading {
-            Shading::Toon(toon) => opaque(toon.shade_color),
-            Shading::Unlit => [0.0; 4],
-        },
-        ColorTarget::MatcapColor => opaque(material.matcap.map_or([0.0; 3], |m| m.color)),
-        ColorTarget::RimColor => opaque(material.rim.color),
-        ColorTarget::OutlineColor => opaque(material.outline.map_or([0.0; 3], |o| o.color)),
-    }
-}
-
-fn add_color(material: &mut Material, target: ColorTarget, shift: [f32; 4]) {
-    let color: &mut [f32] = match target {
-        ColorTarget::Color => &mut material.base.color,
-        ColorTarget::EmissionColor => &mut material.emission.color,
-        ColorTarget::ShadeColor => match &mut material.shading {
-            Shading::Toon(toon) => &mut toon.shade_color,
-            Shading::Unlit => return,
-        },
-        ColorTarget::MatcapColor => match &mut material.matcap {
-            Some(matcap) => &mut matcap.color,
-            None => return,
-        },
-        ColorTarget::RimColor => &mut material.rim.color,
-        ColorTarget::OutlineColor => match &mut material.outline {
-            Some(outline) => &mut outline.color,
-            None => return,
-        },
-    };
-    for (channel, shift) in color.iter_mut().zip(shift) {
-        *channel += shift;
+        self.shifts.colors.extend(expression.colors.iter().map(|bind| (*bind, weight)));
+        self.shifts.uvs.extend(expression.uv_transforms.iter().map(|bind| (*bind, weight)));
     }
 }

@@ -3,8 +3,10 @@
 mod driven;
 mod expression;
 mod pose;
+mod shifts;
 mod stance;
 
 pub use driven::Driven;
 pub use pose::Pose;
+pub use shifts::Shifts;
 pub use stance::Stance;

@@ -1,12 +1,10 @@
-//! A pose: local transforms, morph weights and material changes at one moment.
-
-use std::collections::BTreeMap;
+//! A pose: local transforms, morph weights and shifts of materials at one moment.
 
 use glam::Quat;
 
+use super::Shifts;
 use crate::{
     Error, Result,
-    material::Material,
     scene::{HumanBone, Scene, Transform},
 };
 
@@ -17,9 +15,8 @@ pub struct Pose {
     pub locals: Vec<Transform>,
     /// Morph weights of each node; empty for nodes without a mesh.
     pub morph_weights: Vec<Vec<f32>>,
-    /// Materials that differ from the scene's, by index. Only numbers may differ: textures and options are fixed at
-    /// upload.
-    pub materials: BTreeMap<usize, Material>,
+    /// What expressions shift of materials.
+    pub shifts: Shifts,
 }
 
 impl Pose {
@@ -29,7 +26,7 @@ impl Pose {
         Self {
             locals: scene.nodes.iter().map(|n| n.transform).collect(),
             morph_weights: scene.nodes.iter().map(|n| n.morph_weights.clone()).collect(),
-            materials: BTreeMap::new(),
+            shifts: Shifts::default(),
         }
     }
 
@@ -58,10 +55,7 @@ impl Pose {
         if let Some(at) = self.morph_weights.iter().position(|w| !is_finite(w)) {
             return fault(format!("pose.morph_weights[{at}] {:?}", name(at)), "is not finite".to_owned());
         }
-        match self.materials.keys().find(|m| **m >= scene.materials.len()) {
-            Some(at) => fault(format!("pose.materials[{at}]"), format!("there are {}", scene.materials.len())),
-            None => Ok(()),
-        }
+        Ok(())
     }
 }
 

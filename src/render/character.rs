@@ -10,9 +10,9 @@ use super::looks::Looks;
 use super::made::lock;
 use super::pass::bangs_shadow::BangsFit;
 use super::pass::deform::DeformSource;
-use super::pass::prepass;
 use super::pass::shadow::{self, ShadowFit};
 use super::pass::{Picture, Sight};
+use super::pass::{glow, prepass};
 use super::variants::{Bound, Drawn, Request, Variant, Variants};
 use crate::material::Material;
 use crate::scene::Scene;
@@ -47,6 +47,8 @@ pub(crate) struct CharacterData {
     pub depths: Mutex<[Option<Depths>; 2]>,
     /// What draws each into the shadow map of a whole stage.
     pub world_shadows: OnceLock<Depths>,
+    /// What draws the light of each that blooms.
+    pub glows: OnceLock<Depths>,
     /// Depth, normal and part of every draw, for the channels that show these.
     pub geometry: OnceLock<Vec<Drawn>>,
     /// Eyes and brows that are seen through hair, the foremost first.
@@ -212,6 +214,25 @@ impl CharacterData {
         };
         let made = self.draws.iter().map(|draw| casts(draw).then(|| drawn(draw)).transpose()).collect::<Result<_>>()?;
         Ok(Arc::clone(self.world_shadows.get_or_init(|| made)))
+    }
+
+    /// Whether some of it blooms where a picture does.
+    pub fn has_glow(&self) -> bool {
+        self.draws.iter().any(|draw| self.looks.compositions[draw.material].has("glow"))
+    }
+
+    /// What draws the light that blooms.
+    pub fn glows(&self, variants: &Variants) -> Result<Depths> {
+        if let Some(known) = self.glows.get() {
+            return Ok(Arc::clone(known));
+        }
+        let drawn = |draw: &Draw| {
+            let (of, material) = (&self.looks.compositions[draw.material], self.material(draw));
+            let glows = of.has("glow").then(|| glow::request(of, material, draw.has_vertex_colors));
+            glows.map(|request| Ok(self.bind(&variants.gpu, variants.get(&request)?, draw.material))).transpose()
+        };
+        let made = self.draws.iter().map(drawn).collect::<Result<_>>()?;
+        Ok(Arc::clone(self.glows.get_or_init(|| made)))
     }
 
     /// What draws depth, normal and part of every draw.

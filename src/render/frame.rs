@@ -144,10 +144,10 @@ impl Frame {
         let pipelines = self.begin_view(r, encoder, stage, &take)?;
         if !matches!(shown, Shown::Floor(_)) {
             // Depth of all surfaces, and their normals and parts, where a material reads them.
-            self.encode_prepass(r, encoder, stage, clock)?;
+            self.encode_prepass(r, encoder, stage, post, clock)?;
         }
         // Light that blooms, and how far it spreads.
-        self.encode_glow(encoder, stage, post, clock);
+        self.encode_glow(r, encoder, stage, post, clock)?;
         // One colour pass: opaque, outlines and transparent share their targets, so samples are resolved once.
         let mut pass = self.begin_color_pass(r, encoder, &take, clock);
         self.record_surfaces(r, &mut pass, stage, &take, &pipelines)?;
@@ -166,7 +166,7 @@ impl Frame {
         take: &Take<'_>,
         pipelines: &[Drawables],
     ) -> Result<()> {
-        let frame = self.color_frame_group(stage);
+        let frame = self.color_frame_group(stage, take.post);
         let Some(actors) = actors(stage, frame) else { return Ok(()) };
         if let Shown::Floor(floor) = take.shown {
             floor.encode(pass, &actors);
@@ -221,7 +221,7 @@ impl Frame {
         }
         let has_surfaces = has_surfaces(stage);
         let fits = |t: &PrepassTargets| t.size == view.size && (t.has_surfaces || !has_surfaces);
-        if has_prepass(stage) && !self.prepass_targets.as_ref().is_some_and(|(t, _)| fits(t)) {
+        if has_prepass(stage, *post) && !self.prepass_targets.as_ref().is_some_and(|(t, _)| fits(t)) {
             let targets = PrepassTargets::new(&gpu, view.size, has_surfaces);
             let group = frame_group(&gpu, &r.layouts, &self.uniform, &targets);
             self.prepass_targets = Some((targets, group));
@@ -277,9 +277,10 @@ impl Frame {
         r: &Renderer,
         encoder: &mut wgpu::CommandEncoder,
         stage: &Stage,
+        post: Option<Post>,
         clock: &Clock,
     ) -> Result<()> {
-        let Some(actors) = actors(stage, &self.group).filter(|_| has_prepass(stage)) else { return Ok(()) };
+        let Some(actors) = actors(stage, &self.group).filter(|_| has_prepass(stage, post)) else { return Ok(()) };
         if let Some((targets, _)) = &self.prepass_targets {
             let surfaces = has_surfaces(stage);
             let depths = actors.bodies.troupes.iter().map(|t| t.data().depths(&r.variants, surfaces));
@@ -291,14 +292,24 @@ impl Frame {
         Ok(())
     }
 
-    fn encode_glow(&self, encoder: &mut wgpu::CommandEncoder, stage: &Stage, post: Option<Post>, clock: &Clock) {
+    fn encode_glow(
+        &self,
+        r: &Renderer,
+        encoder: &mut wgpu::CommandEncoder,
+        stage: &Stage,
+        post: Option<Post>,
+        clock: &Clock,
+    ) -> Result<()> {
         let targets = self.post_targets.as_ref().filter(|_| post.is_some());
         if let (Some(PostTargets { light: Some((light, chain)), .. }), Some(bloom)) = (targets, &self.bloom)
-            && let Some(actors) = actors(stage, self.color_frame_group(stage))
+            && let Some(actors) = actors(stage, self.color_frame_group(stage, post))
         {
-            glow::encode(encoder, &GlowInputs { actors, light }, clock.render(Timed::Glow));
+            let all = actors.bodies.troupes.iter().map(|t| t.data().glows(&r.variants)).collect::<Result<Vec<_>>>()?;
+            let drawn = &|troupe: usize, draw: usize| all[troupe][draw].as_ref();
+            glow::encode(encoder, &GlowInputs { actors, drawn, light }, clock.render(Timed::Glow));
             bloom.encode(encoder, &BloomInputs { chain });
         }
+        Ok(())
     }
 
     fn begin_color_pass<'a>(
@@ -357,8 +368,8 @@ impl Frame {
     }
 
     /// Group 0 of the colour pass: with what the prepass drew where a material reads it.
-    fn color_frame_group(&self, stage: &Stage) -> &wgpu::BindGroup {
-        let drawn = self.prepass_targets.as_ref().filter(|_| has_prepass(stage));
+    fn color_frame_group(&self, stage: &Stage, post: Option<Post>) -> &wgpu::BindGroup {
+        let drawn = self.prepass_targets.as_ref().filter(|_| has_prepass(stage, post));
         drawn.map_or(&self.group, |(_, group)| group)
     }
 
@@ -442,8 +453,9 @@ fn actors<'a>(stage: &'a Stage, frame: &'a wgpu::BindGroup) -> Option<Actors<'a>
 }
 
 /// Whether something on a stage reads the depth of the picture.
-fn has_prepass(stage: &Stage) -> bool {
-    stage.bodies.troupes.iter().any(|troupe| troupe.data().has_prepass)
+fn has_prepass(stage: &Stage, post: Option<Post>) -> bool {
+    let blooms = post.is_some_and(|p| p.bloom.is_some());
+    stage.bodies.troupes.iter().any(|troupe| troupe.data().has_prepass || (blooms && troupe.data().has_glow()))
 }
 
 /// Whether something on it reads normals and parts.

@@ -5,15 +5,15 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use super::bind;
 use super::material::{self, Composition, Source};
-use super::shaders::{BindingKind, Places};
+use super::shaders::{BindingKind, Places, Shaders};
 use super::textures::TextureSet;
 use super::uploads::Uploads;
 use super::variants::{Bound, BoundLayout};
 use crate::material::{Material, Surroundings};
-use crate::motion::{Driven, Pose};
+use crate::motion::{Driven, Shifts};
 use crate::scene::Scene;
 use crate::sdf::FaceMap;
-use crate::{Gpu, Result};
+use crate::{Actor, Error, Gpu, Result};
 
 /// The strictest alignment of offsets in WebGPU.
 const OFFSET_ALIGNMENT: u64 = 256;
@@ -51,6 +51,33 @@ impl Looks {
     /// Bytes of a material.
     pub fn bytes(&self, index: usize, material: &Material) -> Result<Vec<u8>> {
         material::bytes(&self.places, &self.surroundings(index, material))
+    }
+
+    /// Refuses a changed material that cannot be drawn with what the upload has made.
+    fn check(&self, shaders: &Shaders, index: usize, material: &Material) -> Result<()> {
+        let fault =
+            |what: &str, message: String| Err(Error::Argument { what: format!("materials[{index}]{what}"), message });
+        let Some(source) = self.sources.get(index) else {
+            return fault("", format!("is not there; there are {}", self.sources.len()));
+        };
+        if let Some((key, message)) = material.clone().out_of_range() {
+            return fault(&format!(" {:?}, {key}", material.name), message);
+        }
+        let fixed = |m: &Material| (m.alpha.mode, m.alpha.write_depth, m.alpha.queue_offset, m.double_sided);
+        let mut other = material.clone();
+        let sections: Vec<&str> = other.sections_mut().map(|section| section.about().key).collect();
+        let composed = Composition::new(shaders, &self.surroundings(index, material));
+        let difference = match fixed(material) == fixed(source) {
+            true => self.compositions[index].difference(&composed, &sections),
+            false => Some("its alpha mode, draw order or sides are others".to_owned()),
+        };
+        difference.map_or(Ok(()), |difference| {
+            let message = format!(
+                "{difference} at the upload, and only numbers may change after that; please upload it with it, weakened to \
+                 nothing where it must not be seen"
+            );
+            fault(&format!(" {:?}", material.name), message)
+        })
     }
 
     pub fn surroundings<'a>(&'a self, index: usize, material: &'a Material) -> Surroundings<'a> {
@@ -108,8 +135,8 @@ impl Looks {
 pub(crate) struct Edits {
     /// Bytes of all materials, made at the first change.
     numbers: Option<wgpu::Buffer>,
-    /// Materials that the pose changes.
-    posed: BTreeMap<usize, Material>,
+    /// What the actor and its pose change.
+    changes: (BTreeMap<usize, Material>, Shifts),
     /// Bytes of materials that have changed since the last frame.
     waiting: Vec<(usize, Vec<u8>)>,
     /// Other base textures, by material.
@@ -119,19 +146,27 @@ pub(crate) struct Edits {
 }
 
 impl Edits {
-    /// Takes the materials that a pose changes, and those that it changes no more; whether any is another than before.
-    pub fn pose(&mut self, looks: &Looks, pose: &Pose) -> bool {
-        if self.posed == pose.materials {
-            return false;
+    /// Takes the materials that an actor has otherwise, and what its pose shifts of all; whether any is another than before.
+    ///
+    /// # Errors
+    /// A material that is not there, a number out of its range, or what was settled at the upload.
+    pub fn take(&mut self, shaders: &Shaders, looks: &Looks, actor: &Actor) -> Result<bool> {
+        let (materials, shifts) = (&actor.materials, &actor.pose.shifts);
+        if self.changes.0 == *materials && self.changes.1 == *shifts {
+            return Ok(false);
         }
-        for index in self.posed.keys().chain(pose.materials.keys()).copied().collect::<BTreeSet<_>>() {
+        for (index, material) in materials.iter().filter(|(i, m)| self.changes.0.get(i) != Some(m)) {
+            looks.check(shaders, *index, material)?;
+        }
+        let (before, moved) = &self.changes;
+        let touched = before.keys().chain(materials.keys()).copied();
+        for index in touched.chain(moved.materials()).chain(shifts.materials()).collect::<BTreeSet<_>>() {
             let Some(source) = looks.sources.get(index) else { continue };
-            let material = pose.materials.get(&index).unwrap_or(source).clone().clamped();
-            // The upload has shown that its bytes can be written.
-            self.waiting.extend(looks.bytes(index, &material).ok().map(|bytes| (index, bytes)));
+            let material = shifts.applied(index, materials.get(&index).unwrap_or(source)).clamped();
+            self.waiting.push((index, looks.bytes(index, &material)?));
         }
-        self.posed.clone_from(&pose.materials);
-        true
+        self.changes = (materials.clone(), shifts.clone());
+        Ok(true)
     }
 
     /// Shows another base texture of a material.

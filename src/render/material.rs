@@ -81,6 +81,38 @@ impl Composition {
         Self { components, alpha: material.alpha.mode, driven_uvs: of.driven.uvs }
     }
 
+    /// Why shaders of this composition cannot draw a changed material, whose own composition is `other`. What is off in it
+    /// but still there is drawn with its numbers.
+    pub fn difference(&self, other: &Self, sections: &[&str]) -> Option<String> {
+        let find = |of: &Self, key: &str| of.components.iter().find(|c| c.about.key == key).cloned();
+        let gone = self.components.iter().find(|c| !sections.contains(&c.about.key));
+        if let Some(gone) = gone {
+            return Some(format!("{} is none; it was some", gone.about.key));
+        }
+        for new in &other.components {
+            let key = new.about.key;
+            let Some(old) = find(self, key) else { return Some(format!("{key} is on; it was off")) };
+            if let Some(option) = new.options.iter().find(|option| !old.options.has(option)) {
+                return Some(format!("{key} asks for {option}; it did not"));
+            }
+            let texture = |slot: &Slot| match slot.source {
+                Source::Texture(t) => (0, t.texture, t.uv_set),
+                Source::FaceMap(map) => (1, map, 0),
+            };
+            let textures = |of: &Component| of.slots.iter().map(|s| (s.name.clone(), texture(s))).collect::<Vec<_>>();
+            if textures(new) != textures(&old) {
+                return Some(format!("{key} has other textures"));
+            }
+            let moves =
+                |slot: &Slot| matches!(slot.source, Source::Texture(t) if t.transform != UvTransform::default());
+            let stood = new.slots.iter().zip(&old.slots).find(|(new, old)| moves(new) && !moves(old));
+            if let Some((slot, _)) = stood.filter(|_| !self.driven_uvs) {
+                return Some(format!("{} is moved over the surface; it was not", slot.name));
+            }
+        }
+        None
+    }
+
     /// Whether this section is on.
     pub fn has(&self, key: &str) -> bool {
         self.components.iter().any(|c| c.about.key == key)

@@ -153,6 +153,7 @@ impl Renderer {
             through_order: through_order(&draws),
             has_blended: draws.iter().any(|draw| draw.blend),
             world_shadows: OnceLock::new(),
+            glows: OnceLock::new(),
             draws,
             bangs,
             shadow,

@@ -1,9 +1,11 @@
 //! One character on a stage.
 
+use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use glam::{Mat4, Quat, Vec3};
 
+use crate::material::Material;
 use crate::motion::Pose;
 use crate::render::Character;
 
@@ -14,8 +16,12 @@ pub struct Actor {
     pub character: Character,
     /// `world_from_character`: rotates, moves and scales evenly. Default: identity; characters face +Z.
     pub world: Mat4,
-    /// How it is posed, and what of its materials has other numbers. Default: rest.
+    /// How it is posed. Default: rest.
     pub pose: Pose,
+    /// Materials that it has otherwise than its character, by index ([`Actor::edit`]): colours and numbers of sections, amounts
+    /// of fading or dissolving. Expressions shift these in turn. What was settled at the upload stays: sections that were off,
+    /// options, textures ([`Renderer::replace_base_texture`](crate::Renderer::replace_base_texture)), alpha mode. Default: none.
+    pub materials: BTreeMap<usize, Material>,
     /// Share of the key light that arrives at it, as a host finds it with shadows of its own. Received like any other shadow:
     /// by materials with a [`CastShadow`](crate::material::CastShadow). Range 0..1. Default: 1.
     pub key_light: f32,
@@ -31,7 +37,14 @@ impl Actor {
     pub fn new(character: &Character) -> Self {
         let pose = Pose::rest(character.scene());
         let id = NEXT.fetch_add(1, Ordering::Relaxed);
-        Self { character: character.clone(), world: Mat4::IDENTITY, pose, key_light: 1.0, id }
+        Self {
+            character: character.clone(),
+            world: Mat4::IDENTITY,
+            pose,
+            materials: BTreeMap::new(),
+            key_light: 1.0,
+            id,
+        }
     }
 
     /// The same at a place, metres, turned about the vertical axis: positive towards its left.
@@ -39,6 +52,12 @@ impl Actor {
     pub fn at(mut self, position: impl Into<Vec3>, yaw_rad: f32) -> Self {
         self.world = Mat4::from_rotation_translation(Quat::from_rotation_y(yaw_rad), position.into());
         self
+    }
+
+    /// A material to change, a copy of its character's at first; `None` where there is no such index.
+    pub fn edit(&mut self, material: usize) -> Option<&mut Material> {
+        let source = self.character.scene().materials.get(material)?;
+        Some(self.materials.entry(material).or_insert_with(|| source.clone()))
     }
 
     /// The same in a pose.

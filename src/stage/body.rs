@@ -14,6 +14,7 @@ use crate::render::numbers::ActorState;
 use crate::render::pass::Mark;
 use crate::render::pass::ground::GroundBody;
 use crate::render::pass::shadow::{ShadowFit, ShadowMap, ShadowRows};
+use crate::render::shaders::Shaders;
 use crate::render::uploads::Uploads;
 use crate::render::vertex::{AffineRows, Instance};
 use crate::render::{Character, CharacterData, Renderer};
@@ -197,7 +198,8 @@ impl Stage {
         }
         let has_others = bodies.troupes.iter_mut().fold(false, |has, troupe| troupe.fit(renderer) | has);
         let Bodies { list, troupes, .. } = bodies;
-        let pose = |(index, (actor, body)): (usize, (&Actor, &mut Body))| match body.pose(actor).err()? {
+        let shaders = &renderer.variants.shaders;
+        let pose = |(index, (actor, body)): (usize, (&Actor, &mut Body))| match body.pose(shaders, actor).err()? {
             Error::Argument { what, message } => {
                 Some(Error::Argument { what: format!("actors[{index}].{what}"), message })
             }
@@ -624,7 +626,7 @@ impl Body {
     }
 
     /// Takes place and pose of an actor.
-    fn pose(&mut self, actor: &Actor) -> Result<()> {
+    fn pose(&mut self, shaders: &Shaders, actor: &Actor) -> Result<()> {
         let CharacterData { scene, rig, looks, .. } = &*self.character.0;
         let pose = &actor.pose;
         pose.check(scene)?;
@@ -666,7 +668,7 @@ impl Body {
         }
         let (low, high) = self.bounds;
         self.volume = Volume::of(low, high, &self.world);
-        if self.edits.pose(looks, pose) {
+        if self.edits.take(shaders, looks, actor)? {
             self.revisions[1] += 1;
         }
         Ok(())

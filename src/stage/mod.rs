@@ -13,6 +13,7 @@ pub use shadow::StageShadow;
 
 use glam::{Mat4, Vec3};
 
+use crate::material::out_of_range;
 use crate::render::Character;
 use crate::scene::{Lights, Post};
 use crate::{Error, Result};
@@ -63,6 +64,10 @@ impl Stage {
                 let message = "is not finite, or flat; expected a place in the world".to_owned();
                 return fault(format!("actors[{i}].world"), message);
             }
+            if !(0.0..=1.0).contains(&actor.key_light) {
+                let message = format!("is {}; expected 0 to 1", actor.key_light);
+                return fault(format!("actors[{i}].key_light"), message);
+            }
             if let Some(j) = self.actors[..i].iter().position(|other| other.id == actor.id) {
                 let message = format!("is the actor at {j}; an actor stands once on a stage, Actor::new makes another");
                 return fault(format!("actors[{i}]"), message);
@@ -70,6 +75,9 @@ impl Stage {
         }
         if !self.time_s.is_finite() {
             return fault("time".to_owned(), format!("is {} s; expected a number", self.time_s));
+        }
+        if let Some((key, message)) = self.post.and_then(|mut post| out_of_range(&mut post)) {
+            return fault(format!("post.{key}"), message);
         }
         self.ground.as_ref().map_or(Ok(()), Ground::check)?;
         self.lights.check()

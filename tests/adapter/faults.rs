@@ -1,6 +1,8 @@
 //! What an application does wrong is an error that names it: never a panic, never another picture.
 
-use hikage::material::TextureRef;
+use std::collections::BTreeMap;
+
+use hikage::material::{AlphaMode, Material, Outline, OutlineWidth, Sparkle, TextureRef};
 use hikage::motion::Pose;
 use hikage::scene::{Camera, Framing, Node, PunctualLight, Scene, SpotCone, Transform};
 use hikage::{Actor, Background, Error, Gpu, Output, Renderer, Stage, View, color::LinearRgb, color::Srgb};
@@ -9,8 +11,11 @@ use crate::support::{Shoot, Shot, anime_heroine, gpu, scene, sphere, staged, tar
 use glam::{Mat4, Quat, Vec3};
 
 fn ball() -> Scene {
-    scene(vec![(sphere(0.5, 16, 32), two_tone())])
+    let line = Outline { width: OutlineWidth::World { metres: 0.01 }, ..Outline::default() };
+    scene(vec![(sphere(0.5, 16, 32), Material { outline: Some(line), ..two_tone() })])
 }
+
+type Materials = BTreeMap<usize, Material>;
 
 /// The message of an error in the caller's arguments.
 fn argument<T>(result: hikage::Result<T>) -> String {
@@ -30,21 +35,27 @@ fn frames_of_one_submit_keep_their_views_poses_and_colours() {
     moved.locals[0].translation.x = 0.4;
     let mut blue = scene.materials[0].clone();
     blue.base.color = [0.1, 0.2, 0.9, 1.0];
-    let mut painted = Pose::rest(&scene);
-    painted.materials.insert(0, blue);
+    let painted = [(0, blue)].into();
     let mut lit = view(256, 2.0);
     lit.lights.directional.to_light = Vec3::new(1.0, 0.2, 0.1);
-    let frames = [(Pose::rest(&scene), view(256, 2.0)), (moved, view(256, 3.0)), (painted, lit)];
+    let rest = || Pose::rest(&scene);
+    let frames = [
+        (rest(), Default::default(), view(256, 2.0)),
+        (moved, Default::default(), view(256, 3.0)),
+        (rest(), painted, lit),
+    ];
 
-    let encode = |encoder: &mut wgpu::CommandEncoder, stage: &mut Stage, (pose, shot): &(Pose, Shot)| {
-        let target = target(&gpu, shot.size, Output::default().format, 1);
-        stage.actors[0].pose.clone_from(pose);
-        shot.set(stage);
-        let into = target.create_view(&wgpu::TextureViewDescriptor::default());
-        renderer.prepare(encoder, stage).expect("a stage");
-        renderer.draw(encoder, stage, &shot.view(), &into).expect("a frame");
-        target
-    };
+    let encode =
+        |encoder: &mut wgpu::CommandEncoder, stage: &mut Stage, (pose, materials, shot): &(Pose, Materials, Shot)| {
+            let target = target(&gpu, shot.size, Output::default().format, 1);
+            stage.actors[0].pose.clone_from(pose);
+            stage.actors[0].materials.clone_from(materials);
+            shot.set(stage);
+            let into = target.create_view(&wgpu::TextureViewDescriptor::default());
+            renderer.prepare(encoder, stage).expect("a stage");
+            renderer.draw(encoder, stage, &shot.view(), &into).expect("a frame");
+            target
+        };
     let encoder = || gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
     let mut together = encoder();
     let targets: Vec<_> = frames.iter().map(|frame| encode(&mut together, &mut stage, frame)).collect();
@@ -167,18 +178,34 @@ fn poses_places_and_lights_that_are_none_are_refused() {
     turned.locals[0].rotation = Quat::from_xyzw(f32::NAN, 0.0, 0.0, 1.0);
     let mut stranger = rest.clone();
     stranger.locals.push(Transform::default());
-    let mut painted = rest.clone();
-    painted.materials.insert(9, two_tone());
-    for (pose, words) in [
-        (turned, "pose.locals[0]"),
-        (stranger, "pose.locals: has 2 nodes; the scene has 1"),
-        (painted, "pose.materials[9]: there are 1"),
-    ] {
+    for (pose, words) in [(turned, "pose.locals[0]"), (stranger, "pose.locals: has 2 nodes; the scene has 1")] {
         stage.actors[0].pose = pose;
         let message = argument(renderer.shoot(&mut stage, &view(64, 2.0)));
         assert!(message.contains("actors[0].") && message.contains(words), "{message}");
     }
     stage.actors[0].pose = rest;
+
+    type Edit = fn(&mut Actor);
+    let edits: [(&str, Edit); 6] = [
+        ("materials[9]: is not there", |a| drop(a.materials.insert(9, two_tone()))),
+        ("rim.fresnel_power", |a| a.edit(0).expect("a material").rim.fresnel_power = f32::NAN),
+        ("materials[0] \"\": sparkle is on; it was off", |a| {
+            a.edit(0).expect("a material").sparkle = Some(Sparkle::default());
+        }),
+        ("outline is none; it was some", |a| a.edit(0).expect("a material").outline = None),
+        ("base has other textures", |a| {
+            a.edit(0).expect("a material").base.texture = Some(TextureRef::default());
+        }),
+        ("alpha mode", |a| a.edit(0).expect("a material").alpha.mode = AlphaMode::Blend),
+    ];
+    for (words, edit) in edits {
+        edit(&mut stage.actors[0]);
+        let refused = renderer.shoot(&mut stage, &view(64, 2.0));
+        assert!(refused.is_err(), "taken: {words}");
+        let message = argument(refused);
+        assert!(message.contains("actors[0].") && message.contains(words), "{message}");
+        stage.actors[0].materials.clear();
+    }
 
     type Break = fn(&mut Shot);
     let lamp = PunctualLight {

@@ -104,8 +104,11 @@ fn each_actor_has_its_own_pose_and_colours() {
         raised.locals[0].translation.y = 0.2;
         let mut green = red.materials[0].clone();
         green.base.color = [0.1, 0.8, 0.2, 1.0];
-        raised.materials.insert(0, green);
         let [left, right] = [[-0.6, 0.0, 0.0], [0.6, 0.0, 0.0]];
+        let painted = |mut actor: Actor| {
+            actor.materials.insert(0, green.clone());
+            actor
+        };
         let stage_of = |actors: Vec<Actor>| {
             let mut stage = Stage::of(actors);
             stage.lights = shot.lights.clone();
@@ -113,12 +116,13 @@ fn each_actor_has_its_own_pose_and_colours() {
         };
         let mut both = stage_of(vec![
             Actor::new(&character).at(left, 0.0),
-            Actor::new(&character).at(right, 0.0).posed(raised.clone()),
+            painted(Actor::new(&character).at(right, 0.0).posed(raised.clone())),
         ]);
         let image = renderer.render(&mut both, &shot.view()).expect("a picture");
-        for (actor, half) in
-            [(Actor::new(&character).at(left, 0.0), 0), (Actor::new(&character).at(right, 0.0).posed(raised), 1)]
-        {
+        for (actor, half) in [
+            (Actor::new(&character).at(left, 0.0), 0),
+            (painted(Actor::new(&character).at(right, 0.0).posed(raised)), 1),
+        ] {
             let alone = renderer.render(&mut stage_of(vec![actor]), &shot.view()).expect("a picture");
             for y in 0..96 {
                 for x in (half * 96)..(half * 96 + 96) {
@@ -128,6 +132,7 @@ fn each_actor_has_its_own_pose_and_colours() {
         }
         // Back at rest, it is as its character was uploaded.
         both.actors[1].pose = Pose::rest(&red);
+        both.actors[1].materials.clear();
         let image = renderer.render(&mut both, &shot.view()).expect("a picture");
         let (mine, its) = (pixel(&image, 48, 48), pixel(&image, 144, 48));
         assert!(mine[0] > mine[1] && its[0] > its[1], "{mine:?} {its:?}");

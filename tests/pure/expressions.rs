@@ -2,7 +2,7 @@
 
 use hikage::{
     material::{Base, Material, Shading, TextureRef, Toon},
-    motion::Pose,
+    motion::{Pose, Shifts},
     scene::{Character, ColorBind, ColorTarget, Expression, ExpressionOverride, MorphBind, Node, Scene, UvBind},
 };
 
@@ -80,14 +80,19 @@ fn colours_and_uvs_move_towards_their_targets() {
     let scene = scene();
     let mut pose = Pose::rest(&scene);
     pose.set_expressions(&scene, &[("happy".to_owned(), 0.5)]).expect("known");
-    let posed = &pose.materials[&0];
+    let posed = pose.shifts.applied(0, &scene.materials[0]);
     assert_eq!(posed.base.color, [0.5, 0.5, 0.0, 0.75]);
     let Shading::Toon(toon) = posed.shading else { panic!("toon") };
     assert_eq!(toon.shade_color, [0.2; 3]);
     let uv = posed.base.texture.expect("a texture").transform;
     assert_eq!((uv.scale, uv.offset), ([1.5, 1.0], [0.125, 0.0]));
+    // Whatever an actor has made of the material is shifted in its turn.
+    let mut edited = scene.materials[0].clone();
+    edited.base.color = [0.0, 0.0, 1.0, 1.0];
+    assert_eq!(pose.shifts.applied(0, &edited).base.color[2], 0.5);
+    assert_eq!(pose.shifts.applied(1, &edited), edited, "another material");
     pose.set_expressions(&scene, &[]).expect("known");
-    assert!(pose.materials.is_empty(), "nothing stays when expressions end");
+    assert_eq!(pose.shifts, Shifts::default(), "nothing stays when expressions end");
 }
 
 #[test]

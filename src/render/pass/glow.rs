@@ -6,12 +6,14 @@ use crate::material::{AlphaMode, Material};
 use crate::render::draw_list::Actors;
 use crate::render::material::Composition;
 use crate::render::targets;
-use crate::render::variants::{Request, State};
+use crate::render::variants::{Drawn, Request, State};
 
 /// What the pass reads and writes.
 pub(crate) struct GlowInputs<'a> {
     /// With the depth of the prepass.
     pub actors: Actors<'a>,
+    /// By troupe and draw; `None` leaves it out.
+    pub drawn: &'a dyn Fn(usize, usize) -> Option<&'a Drawn>,
     /// Of [`target`].
     pub light: &'a wgpu::TextureView,
 }
@@ -42,11 +44,10 @@ pub(crate) fn encode(
     let light = targets::color(inputs.light, wgpu::LoadOp::Clear(wgpu::Color::BLACK));
     let mut pass = targets::begin(encoder, "glow", Some(light), None, timestamps);
     let actors = &inputs.actors;
-    for troupe in &actors.bodies.troupes {
+    for (of, troupe) in actors.bodies.troupes.iter().enumerate() {
         actors.bind(&mut pass, troupe);
-        let data = troupe.data();
-        for (draw, pipelines) in data.draws.iter().zip(data.picture()) {
-            if let Some(glow) = &pipelines.glow {
+        for (index, draw) in troupe.data().draws.iter().enumerate() {
+            if let Some(glow) = (inputs.drawn)(of, index) {
                 actors.record(&mut pass, troupe, draw.indices.clone(), glow, troupe.instances.clone());
             }
         }
