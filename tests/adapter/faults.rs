@@ -281,3 +281,29 @@ fn a_lost_device_says_so() {
         assert!(matches!(&error, Error::Gpu(m) if m.contains("lost")), "{error}");
     }
 }
+
+/// One thread draws frames while another uploads the next character.
+#[test]
+fn uploads_do_not_stop_frames() {
+    let gpu = gpu();
+    let renderer = Renderer::new(&gpu).expect("a renderer");
+    let scene = ball();
+    let mut stage = staged(renderer.upload(&scene));
+    let shot = view(64, 2.0);
+    stage.lights = shot.lights.clone();
+    let before = renderer.render(&mut stage, &shot.view()).expect("a picture");
+    let next = anime_heroine();
+    let uploaded = std::thread::scope(|threads| {
+        let uploading = threads.spawn(|| renderer.upload(&next));
+        let mut frames = 0;
+        while frames < 3 || !uploading.is_finished() {
+            let image = renderer.render(&mut stage, &shot.view()).expect("a picture");
+            assert!(image.pixels == before.pixels, "another picture while something is uploaded");
+            frames += 1;
+        }
+        uploading.join().expect("no panic").expect("an upload")
+    });
+    stage.actors[0] = Actor::new(&uploaded);
+    let after = renderer.render(&mut stage, &shot.view()).expect("a picture");
+    assert!(after.pixels != before.pixels, "the new character is not there");
+}
