@@ -32,6 +32,8 @@ pub(crate) struct CharacterData {
     pub scene: Scene,
     pub static_vertices: wgpu::Buffer,
     pub indices: wgpu::Buffer,
+    /// What it sees of itself.
+    pub first_person: Option<wgpu::Buffer>,
     pub source: DeformSource,
     pub rig: Rig,
     pub looks: Looks,

@@ -25,7 +25,9 @@ use crate::stage::troupe::Troupe;
 #[derive(Debug)]
 pub(crate) struct Draw {
     pub material: usize,
-    pub indices: std::ops::Range<u32>,
+    pub indices: Range<u32>,
+    /// What of it the character sees of itself, in the indices for that.
+    pub first_person: Range<u32>,
     /// Middle of the part at rest, character space.
     pub center: Vec3,
     pub has_vertex_colors: bool,
@@ -36,6 +38,26 @@ pub(crate) struct Draw {
     pub casts_on_face: bool,
     pub casts_lids: bool,
     pub mark: Mark,
+}
+
+/// Triangles of a draw, as others see them and as the character sees itself.
+#[derive(Clone, Debug)]
+pub(crate) struct Triangles {
+    pub third: Range<u32>,
+    pub first: Range<u32>,
+}
+
+impl Triangles {
+    /// For what no view looks at.
+    pub fn third(indices: Range<u32>) -> Self {
+        Self { third: indices, first: 0..0 }
+    }
+}
+
+impl Draw {
+    pub fn triangles(&self) -> Triangles {
+        Triangles { third: self.indices.clone(), first: self.first_person.clone() }
+    }
 }
 
 /// What shows a draw, pass by pass: requests at first, then what was made of them.
@@ -103,11 +125,13 @@ pub(super) fn draws(scene: &Scene, parts: &[Part], has_stencil: bool) -> Vec<Dra
             && (last.casts_on_face, last.casts_lids, last.mark) == (casts_on_face, casts_lids, mark)
         {
             last.indices.end = part.indices.end;
+            last.first_person.end = part.first_person.end;
             continue;
         }
         draws.push(Draw {
             material: part.material,
             indices: part.indices.clone(),
+            first_person: part.first_person.clone(),
             center: part.center,
             has_vertex_colors: part.has_vertex_colors,
             blend,
@@ -234,6 +258,8 @@ pub(crate) struct Actors<'a> {
     pub crowd: &'a Crowd,
     /// Group 0.
     pub frame: &'a wgpu::BindGroup,
+    /// Who looks, where it is one of them.
+    pub first_person: Option<usize>,
 }
 
 impl<'a> Actors<'a> {
@@ -268,12 +294,13 @@ impl<'a> Actors<'a> {
         &self.bodies.list[self.crowd.list[instance as usize].actor as usize]
     }
 
-    /// Draws indices of a troupe, for all these instances together but for those whose actor has changed the material.
+    /// Draws triangles of a troupe for all these instances; whoever looks sees its own body without what would be before its
+    /// eyes.
     pub fn record(
         &self,
         pass: &mut wgpu::RenderPass<'_>,
         troupe: &Troupe,
-        indices: Range<u32>,
+        triangles: Triangles,
         drawn: &Drawn,
         instances: Range<u32>,
     ) {
@@ -281,7 +308,34 @@ impl<'a> Actors<'a> {
             return;
         }
         pass.set_pipeline(&drawn.pipeline);
-        let Some(bound) = &drawn.bound else { return pass.draw_indexed(indices, 0, instances) };
+        let looks = |at: &u32| Some(self.crowd.list[*at as usize].actor as usize) == self.first_person;
+        let looking = self.first_person.and_then(|_| instances.clone().find(looks));
+        let (Some(own), Some(of_first)) = (looking, &troupe.data().first_person) else {
+            return self.record_runs(pass, troupe, &triangles.third, drawn, instances);
+        };
+        self.record_runs(pass, troupe, &triangles.third, drawn, instances.start..own);
+        if !triangles.first.is_empty() {
+            pass.set_index_buffer(of_first.slice(..), wgpu::IndexFormat::Uint32);
+            self.record_runs(pass, troupe, &triangles.first, drawn, own..own + 1);
+            pass.set_index_buffer(troupe.data().indices.slice(..), wgpu::IndexFormat::Uint32);
+        }
+        // Of the shells of a coat there are several.
+        self.record(pass, troupe, triangles, drawn, own + 1..instances.end);
+    }
+
+    /// Draws instances together but for those whose actor has changed the material.
+    fn record_runs(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        troupe: &Troupe,
+        indices: &Range<u32>,
+        drawn: &Drawn,
+        instances: Range<u32>,
+    ) {
+        if instances.is_empty() || indices.is_empty() {
+            return;
+        }
+        let Some(bound) = &drawn.bound else { return pass.draw_indexed(indices.clone(), 0, instances) };
         let data = troupe.data();
         let edited = |instance: u32| {
             let edits = self.body(instance).edits();

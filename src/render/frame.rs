@@ -144,10 +144,10 @@ impl Frame {
         let pipelines = self.begin_view(r, encoder, stage, &take)?;
         if !matches!(shown, Shown::Floor(_)) {
             // Depth of all surfaces, and their normals and parts, where a material reads them.
-            self.encode_prepass(r, encoder, stage, post, clock)?;
+            self.encode_prepass(r, encoder, stage, &take, clock)?;
         }
         // Light that blooms, and how far it spreads.
-        self.encode_glow(r, encoder, stage, post, clock)?;
+        self.encode_glow(r, encoder, stage, &take, clock)?;
         // One colour pass: opaque, outlines and transparent share their targets, so samples are resolved once.
         let mut pass = self.begin_color_pass(r, encoder, &take, clock);
         self.record_surfaces(r, &mut pass, stage, &take, &pipelines)?;
@@ -167,7 +167,7 @@ impl Frame {
         pipelines: &[Drawables],
     ) -> Result<()> {
         let frame = self.color_frame_group(stage, take.post);
-        let Some(actors) = actors(stage, frame) else { return Ok(()) };
+        let Some(actors) = actors(stage, frame, take.view.first_person) else { return Ok(()) };
         if let Shown::Floor(floor) = take.shown {
             floor.encode(pass, &actors);
             return Ok(());
@@ -210,6 +210,10 @@ impl Frame {
             let message = "has other actors than when it was prepared; please prepare it before it is drawn".to_owned();
             return Err(Error::Argument { what: "stage".to_owned(), message });
         }
+        if let Some(at) = view.first_person.filter(|at| *at >= stage.actors.len()) {
+            let message = format!("is {at}; there are {} actors", stage.actors.len());
+            return Err(Error::Argument { what: "first_person".to_owned(), message });
+        }
         let gpu = r.gpu().clone();
         self.send_view(encoder, stage, view);
         match post {
@@ -243,7 +247,7 @@ impl Frame {
         clock: &Clock,
     ) -> Result<()> {
         let stale = stage.bodies.stale_maps(stage.lights.directional.to_light, stage.time_s);
-        let Some(actors) = actors(stage, &self.group) else { return Ok(()) };
+        let Some(actors) = actors(stage, &self.group, None) else { return Ok(()) };
         let bodies = actors.bodies;
         for (n, t) in stale.faces.iter().enumerate() {
             // The first one's time stands for all.
@@ -277,10 +281,13 @@ impl Frame {
         r: &Renderer,
         encoder: &mut wgpu::CommandEncoder,
         stage: &Stage,
-        post: Option<Post>,
+        take: &Take<'_>,
         clock: &Clock,
     ) -> Result<()> {
-        let Some(actors) = actors(stage, &self.group).filter(|_| has_prepass(stage, post)) else { return Ok(()) };
+        let looking = take.view.first_person;
+        let Some(actors) = actors(stage, &self.group, looking).filter(|_| has_prepass(stage, take.post)) else {
+            return Ok(());
+        };
         if let Some((targets, _)) = &self.prepass_targets {
             let surfaces = has_surfaces(stage);
             let depths = actors.bodies.troupes.iter().map(|t| t.data().depths(&r.variants, surfaces));
@@ -297,12 +304,13 @@ impl Frame {
         r: &Renderer,
         encoder: &mut wgpu::CommandEncoder,
         stage: &Stage,
-        post: Option<Post>,
+        take: &Take<'_>,
         clock: &Clock,
     ) -> Result<()> {
+        let Take { view, post, .. } = *take;
         let targets = self.post_targets.as_ref().filter(|_| post.is_some());
         if let (Some(PostTargets { light: Some((light, chain)), .. }), Some(bloom)) = (targets, &self.bloom)
-            && let Some(actors) = actors(stage, self.color_frame_group(stage, post))
+            && let Some(actors) = actors(stage, self.color_frame_group(stage, post), view.first_person)
         {
             let all = actors.bodies.troupes.iter().map(|t| t.data().glows(&r.variants)).collect::<Result<Vec<_>>>()?;
             let drawn = &|troupe: usize, draw: usize| all[troupe][draw].as_ref();
@@ -428,7 +436,7 @@ impl Frame {
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("channel") });
         self.encode_shared(r, &mut encoder, stage, false, &Clock::off())?;
         self.send_view(&mut encoder, stage, view);
-        if let Some(actors) = actors(stage, &self.group) {
+        if let Some(actors) = actors(stage, &self.group, view.first_person) {
             // Depth, normal and part id.
             let all = actors.bodies.troupes.iter().map(|t| t.data().geometry(&r.variants));
             let all = all.collect::<Result<Vec<_>>>()?;
@@ -447,9 +455,9 @@ impl Frame {
 }
 
 /// What passes bind of a stage that is prepared.
-fn actors<'a>(stage: &'a Stage, frame: &'a wgpu::BindGroup) -> Option<Actors<'a>> {
+fn actors<'a>(stage: &'a Stage, frame: &'a wgpu::BindGroup, first_person: Option<usize>) -> Option<Actors<'a>> {
     let bodies = &stage.bodies;
-    Some(Actors { bodies, crowd: bodies.crowd.as_ref()?, frame })
+    Some(Actors { bodies, crowd: bodies.crowd.as_ref()?, frame, first_person })
 }
 
 /// Whether something on a stage reads the depth of the picture.

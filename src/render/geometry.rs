@@ -11,7 +11,7 @@ use super::{
 };
 use crate::{
     material::AlphaMode,
-    scene::{HumanBone, Influences, MorphTarget, Primitive, Role, Scene, Skin},
+    scene::{FirstPerson, HumanBone, Influences, MorphTarget, Primitive, Role, Scene, Skin},
 };
 
 /// What turns a [`Pose`] into matrices and weights, in the order of the GPU buffers.
@@ -57,7 +57,9 @@ impl Palette {
 /// A primitive under a node.
 pub(crate) struct Part {
     pub material: usize,
+    /// In the lists of what others see of the character, and of what it sees of itself.
     pub indices: std::ops::Range<u32>,
+    pub first_person: std::ops::Range<u32>,
     pub center: Vec3,
     /// Least and greatest corner at rest, character space.
     pub bounds: (Vec3, Vec3),
@@ -70,6 +72,8 @@ pub(crate) struct Part {
 pub(crate) struct Geometry {
     pub parts: Vec<Part>,
     pub indices: Vec<u32>,
+    /// What a character sees of itself; empty where it is none.
+    pub first_person: Vec<u32>,
     pub static_vertices: Vec<StaticVertex>,
     pub source: Vec<DeformVertex>,
     pub vertex_refs: Vec<[u32; 2]>,
@@ -98,6 +102,7 @@ impl Geometry {
         geometry.rig.head_middle = middle.unwrap_or_default();
         let mut skin_palettes: HashMap<usize, u32> = HashMap::new();
         let mut parts: Vec<(u32, usize, &Primitive, DeformGroup, Mat4)> = Vec::new();
+        let in_head = below_head(scene);
         for (node_index, mesh) in scene.mesh_nodes() {
             let node = &scene.nodes[node_index];
             let skin = node.skin.and_then(|s| scene.skins.get(s));
@@ -145,8 +150,9 @@ impl Geometry {
         let mask = |p: &Primitive| scene.materials.get(p.material).is_some_and(|m| m.alpha.mode == AlphaMode::Mask);
         parts.sort_by_key(|(id, _, p, ..)| (blend(p), mask(p), if blend(p) { 0 } else { p.material }, *id));
         let mut materials_by_id = vec![0; parts.len()];
-        for (id, _, primitive, group, rest_matrix) in &parts {
-            geometry.push(*id, primitive, *group, *rest_matrix);
+        for (id, node, primitive, group, rest_matrix) in &parts {
+            let sight = sight(scene, &in_head, *node);
+            geometry.push(*id, primitive, *group, *rest_matrix, &sight);
             materials_by_id[*id as usize] = primitive.material;
         }
         let moved = geometry.moved_by_joint.iter();
@@ -158,7 +164,7 @@ impl Geometry {
         geometry
     }
 
-    fn push(&mut self, id: u32, primitive: &Primitive, mut group: DeformGroup, rest: Mat4) {
+    fn push(&mut self, id: u32, primitive: &Primitive, mut group: DeformGroup, rest: Mat4, sight: &Sight) {
         let first = self.source.len() as u32;
         group.first_vertex = first;
         group.first_influence = self.influences.len() as u32;
@@ -204,10 +210,19 @@ impl Geometry {
         let start = self.indices.len() as u32;
         // A mirrored node turns its triangles inside out; the front faces are put back here.
         let mirrored = rest.determinant() < 0.0;
-        self.indices.extend(primitive.indices.chunks_exact(3).flat_map(|t| {
+        let turned = |t: &[u32]| {
             let [a, b, c] = [t[0] + first, t[1] + first, t[2] + first];
             if mirrored { [a, c, b] } else { [a, b, c] }
-        }));
+        };
+        if sight.others {
+            self.indices.extend(primitive.indices.chunks_exact(3).flat_map(turned));
+        }
+        let own = self.first_person.len() as u32;
+        if sight.own {
+            let of_head = |v: &u32| sight.is_of_head(primitive, *v as usize);
+            let kept = primitive.indices.chunks_exact(3).filter(|t| !t.iter().any(of_head));
+            self.first_person.extend(kept.flat_map(turned));
+        }
         if low.cmple(high).all() {
             let (a, b) = self.rig.bounds.unwrap_or((low, high));
             self.rig.bounds = Some((a.min(low), b.max(high)));
@@ -215,6 +230,7 @@ impl Geometry {
         self.parts.push(Part {
             material: primitive.material,
             indices: start..self.indices.len() as u32,
+            first_person: own..self.first_person.len() as u32,
             center: (low + high) * 0.5,
             bounds: (low, high),
             has_vertex_colors: !primitive.colors.is_empty(),
@@ -232,6 +248,50 @@ impl Geometry {
             joint_count: self.joint_count,
             weight_count: self.weight_count,
         }
+    }
+}
+
+/// Nodes that are the head or hang on it; empty without a character.
+fn below_head(scene: &Scene) -> Vec<bool> {
+    let Some(head) = scene.bone_node(HumanBone::Head) else { return Vec::new() };
+    let mut below = vec![false; scene.nodes.len()];
+    for (i, node) in scene.nodes.iter().enumerate() {
+        // Parents stand before their children.
+        below[i] = i == head || node.parent.is_some_and(|p| below[p]);
+    }
+    below
+}
+
+/// Who sees a part (VRM 1.0, `firstPerson`).
+struct Sight {
+    others: bool,
+    own: bool,
+    /// Joints of the head, where triangles that they move are before the character's own eyes.
+    head: Vec<bool>,
+}
+
+impl Sight {
+    fn is_of_head(&self, primitive: &Primitive, vertex: usize) -> bool {
+        let Influences { per_vertex, joints, weights } = &primitive.influences;
+        let at = vertex * per_vertex..(vertex + 1) * per_vertex;
+        let moving = joints.get(at.clone()).unwrap_or_default().iter().zip(weights.get(at).unwrap_or_default());
+        let is_head = |joint: &u16| self.head.get(usize::from(*joint)).copied().unwrap_or(false);
+        moving.into_iter().any(|(joint, weight)| *weight > 0.0 && is_head(joint))
+    }
+}
+
+/// Who sees the parts of a node.
+fn sight(scene: &Scene, in_head: &[bool], node: usize) -> Sight {
+    let of =
+        scene.character.as_ref().map_or(FirstPerson::Both, |c| c.first_person.get(&node).copied().unwrap_or_default());
+    let auto = of == FirstPerson::Auto;
+    let skin = scene.nodes[node].skin.and_then(|s| scene.skins.get(s)).filter(|_| auto);
+    let is_head = |node: &usize| in_head.get(*node).copied().unwrap_or(false);
+    let is_head_part = auto && skin.is_none() && is_head(&node);
+    Sight {
+        others: of != FirstPerson::FirstPersonOnly,
+        own: scene.character.is_some() && of != FirstPerson::ThirdPersonOnly && !is_head_part,
+        head: skin.map_or_else(Vec::new, |skin| skin.joints.iter().map(is_head).collect()),
     }
 }
 

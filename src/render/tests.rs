@@ -90,6 +90,7 @@ fn requests(shaders: &Shaders, material: &Material, colors: bool, channel: Optio
     let draw = super::draw_list::Draw {
         material: 0,
         indices: 0..3,
+        first_person: 0..0,
         center: glam::Vec3::ZERO,
         has_vertex_colors: colors,
         blend: material.alpha.mode == AlphaMode::Blend,

@@ -123,6 +123,8 @@ impl Renderer {
         }
 
         let indices = buffer("indices", bytemuck::cast_slice(&geometry.indices), U::INDEX);
+        let of_first = || buffer("first person", bytemuck::cast_slice(&geometry.first_person), U::INDEX);
+        let first_person = scene.character.is_some().then(of_first);
         let static_vertices = buffer("static vertices", bytemuck::cast_slice(&geometry.static_vertices), U::VERTEX);
         let bangs = bangs_fit(scene, &geometry);
         if bangs.is_some() {
@@ -143,6 +145,7 @@ impl Renderer {
             scene: measured(scene),
             static_vertices,
             indices,
+            first_person,
             source,
             looks,
             picture: OnceLock::new(),

@@ -22,6 +22,9 @@ pub struct View {
     pub background: Background,
     /// What is shown. Default: the shaded picture.
     pub channel: Channel,
+    /// Actor whose eyes it looks through, by its place on the stage: of itself it sees neither head nor hair, as its file says
+    /// (VRM, `firstPerson`); shadows and other actors are whole. Default: none of them.
+    pub first_person: Option<usize>,
 }
 
 impl Default for View {
@@ -31,6 +34,7 @@ impl Default for View {
             camera: Camera::default(),
             background: Background::default(),
             channel: Channel::default(),
+            first_person: None,
         }
     }
 }

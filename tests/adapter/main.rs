@@ -12,6 +12,7 @@ mod eye_layers;
 mod eyes_through;
 mod face_shadow;
 mod faults;
+mod first_person;
 mod ground;
 mod host;
 mod laws;

@@ -219,7 +219,7 @@ impl Default for Shot {
 
 impl Shot {
     fn of(view: View, lights: Lights) -> Self {
-        let View { size, camera, background, channel } = view;
+        let View { size, camera, background, channel, .. } = view;
         Self { size, camera, lights, background, time_s: 0.0, channel, instances: vec![Mat4::IDENTITY] }
     }
 
@@ -229,7 +229,8 @@ impl Shot {
     }
 
     pub fn view(&self) -> View {
-        View { size: self.size, camera: self.camera, background: self.background, channel: self.channel }
+        let Self { size, camera, background, channel, .. } = *self;
+        View { size, camera, background, channel, first_person: None }
     }
 
     /// Sets a stage under its light, with an actor for each place.

@@ -8,7 +8,7 @@ use super::bangs_near::{self, BangsNearInputs, BangsNearPass};
 use super::{DEPTH_FORMAT, map_request};
 use crate::Gpu;
 use crate::gpu::MAX_TEXTURE_SIDE;
-use crate::render::draw_list::{Actors, Draw};
+use crate::render::draw_list::{Actors, Draw, Triangles};
 use crate::render::material::Composition;
 use crate::render::targets;
 use crate::render::variants::{Drawn, Request};
@@ -213,13 +213,25 @@ fn encode_layer(
         pass.set_scissor_rect(x as u32, y as u32, side as u32, side as u32);
         bind(&mut pass, of);
         for draw in &own {
-            actors.record(&mut pass, of, draw.indices.clone(), draw.drawn, body.instance..body.instance + 1);
+            actors.record(
+                &mut pass,
+                of,
+                Triangles::third(draw.indices.clone()),
+                draw.drawn,
+                body.instance..body.instance + 1,
+            );
         }
         for &(other, instance) in body.face_casters.iter().filter(|_| !lids) {
             let troupe = &actors.bodies.troupes[other];
             bind(&mut pass, troupe);
             for draw in &all[other] {
-                actors.record(&mut pass, troupe, draw.indices.clone(), draw.drawn, instance..instance + 1);
+                actors.record(
+                    &mut pass,
+                    troupe,
+                    Triangles::third(draw.indices.clone()),
+                    draw.drawn,
+                    instance..instance + 1,
+                );
             }
         }
     }

@@ -29,7 +29,7 @@ pub(crate) fn encode(pass: &mut wgpu::RenderPass<'_>, actors: &Actors<'_>, shown
             pass.set_stencil_reference(Mark::Through.reference(*number));
             for &index in &data.through_order {
                 if let Some(through) = &shown[index].through {
-                    actors.record(pass, troupe, data.draws[index].indices.clone(), through, instances.clone());
+                    actors.record(pass, troupe, data.draws[index].triangles(), through, instances.clone());
                 }
             }
         }

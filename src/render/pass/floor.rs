@@ -26,7 +26,7 @@ impl FloorPass {
         for troupe in &actors.bodies.troupes {
             actors.bind(pass, troupe);
             for (draw, drawn) in troupe.data().draws.iter().zip(&self.drawn) {
-                actors.record(pass, troupe, draw.indices.clone(), drawn, troupe.instances.clone());
+                actors.record(pass, troupe, draw.triangles(), drawn, troupe.instances.clone());
             }
         }
     }

@@ -35,7 +35,7 @@ pub(crate) fn encode(pass: &mut wgpu::RenderPass<'_>, actors: &Actors<'_>, shown
         for (draw, pipelines) in data.draws.iter().zip(&**shown) {
             let (Some(coat), Some(fluff)) = (&pipelines.fluff, data.material(draw).fluff) else { continue };
             let last = troupe.shells.start + shells(&fluff, px_per_m) * troupe.instances.len() as u32;
-            actors.record(pass, troupe, draw.indices.clone(), coat, troupe.shells.start..last.min(troupe.shells.end));
+            actors.record(pass, troupe, draw.triangles(), coat, troupe.shells.start..last.min(troupe.shells.end));
         }
     }
 }

@@ -48,7 +48,7 @@ pub(crate) fn encode(
         actors.bind(&mut pass, troupe);
         for (index, draw) in troupe.data().draws.iter().enumerate() {
             if let Some(glow) = (inputs.drawn)(of, index) {
-                actors.record(&mut pass, troupe, draw.indices.clone(), glow, troupe.instances.clone());
+                actors.record(&mut pass, troupe, draw.triangles(), glow, troupe.instances.clone());
             }
         }
     }

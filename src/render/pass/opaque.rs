@@ -44,7 +44,7 @@ pub(crate) fn encode(pass: &mut wgpu::RenderPass<'_>, actors: &Actors<'_>, shown
                     pass.set_stencil_reference(mark.reference(*number));
                 }
                 for (i, draw) in draws() {
-                    actors.record(pass, troupe, draw.indices.clone(), &shown[i].surface, instances.clone());
+                    actors.record(pass, troupe, draw.triangles(), &shown[i].surface, instances.clone());
                 }
             }
         }

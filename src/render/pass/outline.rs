@@ -47,7 +47,7 @@ pub(crate) fn encode(pass: &mut wgpu::RenderPass<'_>, actors: &Actors<'_>, shown
         actors.bind(pass, troupe);
         for (i, draw) in troupe.solid_draws() {
             if let Some(outline) = &shown[i].outline {
-                actors.record(pass, troupe, draw.indices.clone(), outline, troupe.instances.clone());
+                actors.record(pass, troupe, draw.triangles(), outline, troupe.instances.clone());
             }
         }
     }

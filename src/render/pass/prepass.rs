@@ -46,7 +46,7 @@ pub(crate) fn encode(
         actors.bind(&mut pass, troupe);
         for (index, draw) in troupe.data().draws.iter().enumerate() {
             if let Some(drawn) = (inputs.drawn)(of, index) {
-                actors.record(&mut pass, troupe, draw.indices.clone(), drawn, troupe.instances.clone());
+                actors.record(&mut pass, troupe, draw.triangles(), drawn, troupe.instances.clone());
             }
         }
     }

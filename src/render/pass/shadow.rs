@@ -147,7 +147,7 @@ pub(crate) fn encode(
         actors.bind_without_maps(&mut pass, troupe);
         for (i, draw) in troupe.data().draws.iter().enumerate() {
             if let Some(shadow) = drawn(of, i) {
-                actors.record(&mut pass, troupe, draw.indices.clone(), shadow, instances.clone());
+                actors.record(&mut pass, troupe, draw.triangles(), shadow, instances.clone());
             }
         }
     }

@@ -27,9 +27,9 @@ pub(crate) fn encode(pass: &mut wgpu::RenderPass<'_>, actors: &Actors<'_>, shown
         }
         let (draw, pipelines) = (&troupe.data().draws[index], &shown[body.troupe][index]);
         let instance = body.instance..body.instance + 1;
-        actors.record(pass, troupe, draw.indices.clone(), &pipelines.surface, instance.clone());
+        actors.record(pass, troupe, draw.triangles(), &pipelines.surface, instance.clone());
         if let Some(outline) = &pipelines.outline {
-            actors.record(pass, troupe, draw.indices.clone(), outline, instance);
+            actors.record(pass, troupe, draw.triangles(), outline, instance);
         }
     }
 }
