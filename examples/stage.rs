@@ -1,9 +1,9 @@
-//! Two characters on one stage, without a window: each with a place, a pose and a shadow of its own, one casting on the other.
+//! Two characters on a ground, without a window: each with a place, a pose and shadows of its own, one casting on the other.
 //!
 //! `cargo run --release --example stage [MODEL.vrm [MODEL.vrm]]`
 
 use hikage::motion::{Pose, Stance};
-use hikage::{Actor, Error, Gpu, Look, Renderer, Stage, View, import, picture, scene::Framing};
+use hikage::{Actor, Error, Gpu, Grid, Ground, Look, Renderer, Stage, View, import, picture, scene::Framing};
 
 fn main() -> Result<(), Error> {
     let gpu = Gpu::headless(None)?;
@@ -29,6 +29,7 @@ fn main() -> Result<(), Error> {
         Actor::new(character).at(*place, *yaw).posed(pose)
     });
     let mut stage = Stage::of(actors);
-    let view = View::framed_stage(&stage, Framing::Bust, 0.1, [1024, 768]);
+    stage.ground = Some(Ground { grid: Some(Grid::default()), ..Ground::default() });
+    let view = View::framed_stage(&stage, Framing::Full, 0.1, [1024, 768]);
     picture::write_png("stage.png", &renderer.render(&mut stage, &view)?)
 }

@@ -56,13 +56,21 @@ pub(crate) enum Shown<'a> {
 }
 
 /// A view that is drawn.
-struct Take<'a> {
+pub(super) struct Take<'a> {
     view: &'a View,
     target: &'a Target<'a>,
     shown: Shown<'a>,
     /// It is finished by [`Frame::encode_post`].
     post: Option<Post>,
     picture: Picture<'a>,
+}
+
+impl<'a> Take<'a> {
+    pub fn new(r: &Renderer, stage: &Stage, view: &'a View, target: &'a Target<'a>, shown: Shown<'a>) -> Self {
+        let post = shown.post(stage, target, r.output);
+        let picture = Picture::new(r.gpu(), r.output, shown.sight(stage, post));
+        Self { view, target, shown, post, picture }
+    }
 }
 
 impl<'a> Shown<'a> {
@@ -133,27 +141,22 @@ impl Frame {
         r: &Renderer,
         encoder: &mut wgpu::CommandEncoder,
         stage: &Stage,
-        view: &View,
-        target: Target<'_>,
-        shown: Shown<'_>,
+        take: &Take<'_>,
         clock: &Clock,
     ) -> Result<()> {
-        let post = shown.post(stage, &target, r.output);
-        let picture = Picture::new(r.gpu(), r.output, shown.sight(stage, post));
-        let take = Take { view, target: &target, shown, post, picture };
-        let pipelines = self.begin_view(r, encoder, stage, &take)?;
-        if !matches!(shown, Shown::Floor(_)) {
+        let pipelines = self.begin_view(r, encoder, stage, take)?;
+        if !matches!(take.shown, Shown::Floor(_)) {
             // Depth of all surfaces, and their normals and parts, where a material reads them.
-            self.encode_prepass(r, encoder, stage, &take, clock)?;
+            self.encode_prepass(r, encoder, stage, take, clock)?;
         }
         // Light that blooms, and how far it spreads.
-        self.encode_glow(r, encoder, stage, &take, clock)?;
+        self.encode_glow(r, encoder, stage, take, clock)?;
         // One colour pass: opaque, outlines and transparent share their targets, so samples are resolved once.
-        let mut pass = self.begin_color_pass(r, encoder, &take, clock);
-        self.record_surfaces(r, &mut pass, stage, &take, &pipelines)?;
+        let mut pass = self.begin_color_pass(r, encoder, take, clock);
+        self.record_surfaces(r, &mut pass, stage, take, &pipelines)?;
         drop(pass);
         // Bloom, tone curve, background, smooth edges.
-        self.encode_post(encoder, &take, clock);
+        self.encode_post(encoder, take, clock);
         Ok(())
     }
 

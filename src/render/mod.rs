@@ -43,7 +43,7 @@ pub(crate) use frame::Shown;
 use crate::gpu::MAX_TEXTURE_SIDE;
 use crate::scene::Image;
 use crate::{Error, Gpu, Result, Stage};
-use frame::Frame;
+use frame::{Frame, Take};
 use made::lock;
 use numbers::frame_numbers;
 use pass::bangs_near::BangsNearPass;
@@ -277,7 +277,8 @@ impl Renderer {
         shown: Shown<'_>,
         clock: &Clock,
     ) -> Result<()> {
-        lock(&self.frame).encode(self, encoder, stage, view, target, shown, clock)
+        let take = Take::new(self, stage, view, &target, shown);
+        lock(&self.frame).encode(self, encoder, stage, &take, clock)
     }
 }
 

@@ -1,10 +1,9 @@
 //! The shadow that a character casts on itself and on others.
 
 crate::part! {
-    /// A shadow map for each actor (of a stage the first [`MOST_SHADOWED`]), drawn from the key light by an orthographic
-    /// camera that is fitted to it: near or far, its texels have the same size on it. The sixteen nearest other actors cast
-    /// into it, too. Materials say by a
-    /// [`CastShadow`](crate::material::CastShadow) whether they cast and receive.
+    /// A shadow map for each actor (of a stage for [`MOST_SHADOWED`] of them, the rest share one), drawn from the key light by an
+    /// orthographic camera that is fitted to it: near or far, its texels have the same size on it. The sixteen nearest other
+    /// actors cast into it, too. Materials say by a [`CastShadow`](crate::material::CastShadow) whether they cast and receive.
     #[derive(Copy)]
     SelfShadow {
         /// Texels along a side of a map.

@@ -328,11 +328,10 @@ impl Bodies {
         let wanted = own as u32 + u32::from(has_world);
         let has_others = wanted > 0 && ShadowMap::fit(shadow, gpu, side, wanted);
         let mut free = [true; MOST_SHADOWED as usize];
-        for i in 0..list.len() {
+        for (i, body) in list.iter_mut().enumerate() {
             // Whoever keeps a map keeps its layer.
-            let keeps = list[i].shadow_layer.filter(|l| (*l as usize) < own && order[..own].contains(&i));
-            list[i].shadow_layer = keeps;
-            keeps.into_iter().for_each(|l| free[l as usize] = false);
+            body.shadow_layer = body.shadow_layer.filter(|l| (*l as usize) < own && order[..own].contains(&i));
+            body.shadow_layer.into_iter().for_each(|l| free[l as usize] = false);
         }
         for i in &order[..own] {
             let next = free.iter().position(|f| *f).unwrap_or_default();
@@ -494,8 +493,7 @@ impl Bodies {
                 stale.shadows.push(i);
             }
         }
-        for t in 0..troupes.len() {
-            let troupe = &mut troupes[t];
+        for (t, troupe) in troupes.iter_mut().enumerate() {
             if troupe.bangs.is_none() {
                 continue;
             }
@@ -688,7 +686,7 @@ impl Body {
     fn face_light(&self, to_light: Vec3) -> Option<FaceLight> {
         let fit = self.data().bangs.as_ref()?;
         let of_character = self.world.inverse().transform_vector3(to_light).normalize_or(Vec3::Z);
-        let direction = fit.to_light(self.head, of_character);
+        let direction = fit.light_direction(self.head, of_character);
         // The map may be turned about the light.
         let half = Vec3::splat(fit.half * std::f32::consts::SQRT_2);
         let middle = self.head.transform_point3(fit.middle);

@@ -260,8 +260,8 @@ fn a_hosts_cube_hides_and_is_hidden_as_one_drawn_inside() {
         let (view, clip_from_world) = lens.of(&own_view);
         let output = Output { format, samples, depth: Some(HostDepth { format: depth, far: lens.far() }) };
         // The same inside of a picture of its own, with the host's kind of depth.
-        let mut own = Renderer::with_output(&gpu, Output { depth: None, ..output }).expect("a renderer");
-        let mut stage = actors(&mut own, true);
+        let own = Renderer::with_output(&gpu, Output { depth: None, ..output }).expect("a renderer");
+        let mut stage = actors(&own, true);
         let inside = Host::new(&gpu, output, view.size, clip_from_world);
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         own.prepare(&mut encoder, &mut stage).expect("a stage");

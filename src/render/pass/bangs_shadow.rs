@@ -92,7 +92,7 @@ impl BangsFit {
     }
 
     /// Where the light of the shadow stands, character space; `to_light` is the key light.
-    pub fn to_light(&self, head: Mat4, to_light: Vec3) -> Vec3 {
+    pub fn light_direction(&self, head: Mat4, to_light: Vec3) -> Vec3 {
         let [left, up, forward] = Self::axes(head);
         let [yaw, pitch] = self.bangs.direction_rad.unwrap_or_else(|| {
             let light = to_light.normalize_or(forward);
@@ -106,7 +106,7 @@ impl BangsFit {
     /// Rows of the map from character space.
     pub fn rows(&self, head: Mat4, to_light: Vec3) -> [Vec4; 3] {
         let [left, up, _] = Self::axes(head);
-        let direction = self.to_light(head, to_light);
+        let direction = self.light_direction(head, to_light);
         let right = up.cross(direction).normalize_or(left);
         let top = direction.cross(right);
         let middle = head.transform_point3(self.middle);
