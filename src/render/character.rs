@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, OnceLock};
 
 use super::Output;
+use super::blended::MOST_APART;
 use super::draw_list::{self, Draw, Pipelines};
 use super::geometry::Rig;
 use super::looks::Looks;
@@ -105,10 +106,11 @@ impl Character {
         self.draw_count_of(1)
     }
 
-    /// The same of so many actors: what is not blended is drawn for all of them together.
+    /// The same of so many actors: what is not blended is drawn for all of them together, and what is for those of a crowd.
     pub(crate) fn draw_count_of(&self, actors: usize) -> usize {
         let count = |p: &Pipelines<Drawn>| 1 + usize::from(p.outline.is_some()) + usize::from(p.fluff.is_some());
-        let times = |draw: &Draw| if draw.blend { actors } else { 1 };
+        let apart = if actors > MOST_APART { 1 } else { actors };
+        let times = |draw: &Draw| if draw.blend { apart } else { 1 };
         self.0.draws.iter().zip(self.0.picture()).map(|(draw, p)| times(draw) * count(p)).sum()
     }
 

@@ -13,12 +13,12 @@ use super::pass::{
 };
 use super::shaders::{Recipe, Shaders};
 use super::variants::{Drawn, Request};
+use super::vertex::Instance;
 use super::{Output, uv_metric};
 use crate::material::{AlphaMode, Material, Surroundings};
 use crate::motion::Driven;
 use crate::scene::{Role, Scene};
 use crate::stage::body::{Bodies, Body};
-use crate::stage::crowd::Crowd;
 use crate::stage::troupe::Troupe;
 
 /// One draw: a range of indices under one material.
@@ -234,28 +234,13 @@ pub(super) fn through_order(draws: &[Draw]) -> Vec<usize> {
     order
 }
 
-/// Blended draws of all bodies, by body and draw: those that write depth first, then by queue offset, then far before near
-/// (MToon, "Render Queue"); equal ones keep the order of actors and files.
-pub(crate) fn transparent_order(bodies: &[Body], eye: Vec3) -> Vec<(usize, usize)> {
-    let mut order = Vec::new();
-    for (of, body) in bodies.iter().enumerate().filter(|(_, body)| body.data().has_blended) {
-        // In character space, where distances of one body compare alike.
-        let eye = body.world.inverse().transform_point3(eye);
-        let scale = body.world.x_axis.truncate().length_squared();
-        for (index, draw) in body.data().draws.iter().enumerate().filter(|(_, draw)| draw.blend) {
-            let depth = draw.center.distance_squared(eye) * scale;
-            order.push((depth, (!draw.write_depth, draw.queue_offset), (of, index)));
-        }
-    }
-    order.sort_by(|(x, a, i), (y, b, j)| a.cmp(b).then(y.total_cmp(x)).then(i.cmp(j)));
-    order.into_iter().map(|(.., place)| place).collect()
-}
-
 /// What every pass over surfaces binds and draws.
 #[derive(Clone, Copy)]
 pub(crate) struct Actors<'a> {
     pub bodies: &'a Bodies,
-    pub crowd: &'a Crowd,
+    /// What instances stand for.
+    pub list: &'a [Instance],
+    pub instances: &'a wgpu::Buffer,
     /// Group 0.
     pub frame: &'a wgpu::BindGroup,
     /// Who looks, where it is one of them.
@@ -285,13 +270,13 @@ impl<'a> Actors<'a> {
         }
         let data = troupe.data();
         pass.set_vertex_buffer(0, data.static_vertices.slice(..));
-        pass.set_vertex_buffer(1, self.crowd.instances.slice(..));
+        pass.set_vertex_buffer(1, self.instances.slice(..));
         pass.set_index_buffer(data.indices.slice(..), wgpu::IndexFormat::Uint32);
     }
 
     /// The body that an instance stands for.
     pub fn body(self, instance: u32) -> &'a Body {
-        &self.bodies.list[self.crowd.list[instance as usize].actor as usize]
+        &self.bodies.list[self.list[instance as usize].actor as usize]
     }
 
     /// Draws triangles of a troupe for all these instances; whoever looks sees its own body without what would be before its
@@ -308,7 +293,7 @@ impl<'a> Actors<'a> {
             return;
         }
         pass.set_pipeline(&drawn.pipeline);
-        let looks = |at: &u32| Some(self.crowd.list[*at as usize].actor as usize) == self.first_person;
+        let looks = |at: &u32| Some(self.list[*at as usize].actor as usize) == self.first_person;
         let looking = self.first_person.and_then(|_| instances.clone().find(looks));
         let (Some(own), Some(of_first)) = (looking, &troupe.data().first_person) else {
             return self.record_runs(pass, troupe, &triangles.third, drawn, instances);

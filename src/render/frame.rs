@@ -3,7 +3,8 @@
 use wgpu::BindingResource;
 
 use super::character::Shown as Drawables;
-use super::draw_list::{self, Actors};
+use super::blended::BlendedList;
+use super::draw_list::Actors;
 use super::layout::Filled;
 use super::numbers::{frame_numbers, put_view};
 use super::pass::bangs_shadow::{self, BangsShadowInputs};
@@ -29,6 +30,7 @@ use crate::{Error, Gpu, Result, Stage};
 #[derive(Debug)]
 pub(super) struct Frame {
     uploads: Uploads,
+    blended: BlendedList,
     numbers: Filled,
     uniform: wgpu::Buffer,
     /// Group 0 without what a prepass draws.
@@ -98,6 +100,7 @@ impl Frame {
         let uniform = bind::buffer(gpu, "frame", numbers.size(), usage);
         Self {
             uploads: Uploads::new(gpu),
+            blended: BlendedList::new(gpu),
             group: frame_group(gpu, layouts, &uniform, &PrepassTargets::new(gpu, [1, 1], false)),
             numbers,
             uniform,
@@ -189,8 +192,8 @@ impl Frame {
             r.ground().encode(pass, &inputs)?;
         }
         // What is seen through, far before near.
-        let order = draw_list::transparent_order(&actors.bodies.list, take.view.camera.eye);
-        transparent::encode(pass, &actors, pipelines, &order);
+        let BlendedList { draws, list, instances } = &self.blended;
+        transparent::encode(pass, &Actors { list, instances, ..actors }, pipelines, draws);
         Ok(())
     }
 
@@ -219,6 +222,10 @@ impl Frame {
         }
         let gpu = r.gpu().clone();
         self.send_view(encoder, stage, view);
+        if let Some(crowd) = &stage.bodies.crowd {
+            self.blended.arrange(&stage.bodies, crowd, view.camera.eye);
+            self.blended.send(&gpu, &mut self.uploads, encoder);
+        }
         match post {
             Some(post) => self.fit_post(r, view.size, *post, target)?,
             None if self.color_targets.as_ref().is_none_or(|t| t.size != view.size) => {
@@ -460,7 +467,8 @@ impl Frame {
 /// What passes bind of a stage that is prepared.
 fn actors<'a>(stage: &'a Stage, frame: &'a wgpu::BindGroup, first_person: Option<usize>) -> Option<Actors<'a>> {
     let bodies = &stage.bodies;
-    Some(Actors { bodies, crowd: bodies.crowd.as_ref()?, frame, first_person })
+    let crowd = bodies.crowd.as_ref()?;
+    Some(Actors { bodies, list: &crowd.list, instances: &crowd.instances, frame, first_person })
 }
 
 /// Whether something on a stage reads the depth of the picture.

@@ -1,6 +1,7 @@
 //! The renderer: what it is made of, and what may be asked of it.
 
 pub(crate) mod bind;
+mod blended;
 mod character;
 pub(crate) mod check_section;
 mod check_wgsl;

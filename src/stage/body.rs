@@ -613,6 +613,11 @@ impl Body {
         &mut self.edits
     }
 
+    /// Its middle in the world.
+    pub fn middle(&self) -> Vec3 {
+        self.volume.middle
+    }
+
     /// Its slot in its troupe.
     pub fn slot(&self) -> u32 {
         self.slot

@@ -89,8 +89,9 @@ impl Stage {
     }
 
     /// Draw calls of a frame's colour pass with everything in view, outlines and coats of fluff included. Actors of one
-    /// character are drawn together, but for blended materials, for those that an actor has changed, and for hair and eyes where
-    /// heads come so near each other that eyes might be seen through another's hair; these last two are not counted.
+    /// character are drawn together, but for blended materials of up to eight of them, for materials that an actor has changed,
+    /// and for hair and eyes where heads come so near each other that eyes might be seen through another's hair; these last two
+    /// are not counted.
     #[must_use]
     pub fn draw_count(&self) -> usize {
         let is_first = |i: usize| !self.actors[..i].iter().any(|a| a.character.is(&self.actors[i].character));

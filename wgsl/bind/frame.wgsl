@@ -50,7 +50,7 @@ fn in_target(clip: vec4f) -> vec4f {
 
 // Distance along the view of a fragment of the picture, metres.
 fn distance_here(position: vec4f) -> f32 {
-    @if(host_depth) return 1.0 / position.w;
+    @if(host_depth) return frame.near * frame.host_depth.y / (position.z - frame.host_depth.x);
     @if(!host_depth) return frame.near / max(position.z, 1e-12);
 }
 

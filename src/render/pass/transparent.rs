@@ -2,6 +2,7 @@
 
 use super::{Drawing, Mark, Picture, surface_cull};
 use crate::material::Material;
+use crate::render::blended::Blended;
 use crate::render::character::Shown;
 use crate::render::draw_list::Actors;
 use crate::render::material::Composition;
@@ -15,21 +16,19 @@ pub(crate) fn request(picture: &Picture<'_>, of: &Composition, material: &Materi
     picture.request(recipe, Drawing { cull: surface_cull(material), blend: true, write_depth, mark: Mark::None })
 }
 
-/// Draws each surface, then its outline, in this order of bodies and their draws.
-pub(crate) fn encode(pass: &mut wgpu::RenderPass<'_>, actors: &Actors<'_>, shown: &[Shown], order: &[(usize, usize)]) {
+/// Draws each surface, then its outline, in the order of the view; `actors` have its instances.
+pub(crate) fn encode(pass: &mut wgpu::RenderPass<'_>, actors: &Actors<'_>, shown: &[Shown], order: &[Blended]) {
     let mut last = None;
-    for &(of, index) in order {
-        let body = &actors.bodies.list[of];
-        let troupe = &actors.bodies.troupes[body.troupe];
-        if last != Some(body.troupe) {
+    for Blended { troupe: of, draw, instances, .. } in order {
+        let troupe = &actors.bodies.troupes[*of];
+        if last != Some(of) {
             actors.bind(pass, troupe);
-            last = Some(body.troupe);
+            last = Some(of);
         }
-        let (draw, pipelines) = (&troupe.data().draws[index], &shown[body.troupe][index]);
-        let instance = body.instance..body.instance + 1;
-        actors.record(pass, troupe, draw.triangles(), &pipelines.surface, instance.clone());
+        let (draw, pipelines) = (&troupe.data().draws[*draw], &shown[*of][*draw]);
+        actors.record(pass, troupe, draw.triangles(), &pipelines.surface, instances.clone());
         if let Some(outline) = &pipelines.outline {
-            actors.record(pass, troupe, draw.triangles(), outline, instance);
+            actors.record(pass, troupe, draw.triangles(), outline, instances.clone());
         }
     }
 }
