@@ -75,9 +75,7 @@ impl BlendedList {
                 }
             }
         }
-        draws.sort_by(|a, b| {
-            a.queue.cmp(&b.queue).then(b.depth.total_cmp(&a.depth)).then(a.place.cmp(&b.place))
-        });
+        draws.sort_by(|a, b| a.queue.cmp(&b.queue).then(b.depth.total_cmp(&a.depth)).then(a.place.cmp(&b.place)));
     }
 
     /// Sends the list.

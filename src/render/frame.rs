@@ -2,8 +2,8 @@
 
 use wgpu::BindingResource;
 
-use super::character::Shown as Drawables;
 use super::blended::BlendedList;
+use super::character::Shown as Drawables;
 use super::draw_list::Actors;
 use super::layout::Filled;
 use super::numbers::{frame_numbers, put_view};

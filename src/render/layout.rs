@@ -84,6 +84,9 @@ pub struct Block<'a> {
     /// A bit for each member that is written, and for each that holds the field of its name.
     put: u128,
     taken: u128,
+    /// Members in the order in which they were last written, and how many of them have been now: the same as last time.
+    order: Vec<usize>,
+    at: usize,
     /// Fields of another size than the member of their name: members and sizes.
     unfit: Vec<(usize, usize)>,
     faults: Vec<String>,
@@ -91,7 +94,19 @@ pub struct Block<'a> {
 
 impl<'a> Block<'a> {
     pub(crate) fn new(layout: &'a Layout, bytes: &'a mut [u8]) -> Self {
-        Self { layout, bytes, put: 0, taken: 0, unfit: Vec::new(), faults: Vec::new() }
+        Self { layout, bytes, put: 0, taken: 0, order: Vec::new(), at: 0, unfit: Vec::new(), faults: Vec::new() }
+    }
+
+    /// Place of a member, which is mostly that of last time.
+    fn find(&mut self, member: &str) -> Option<usize> {
+        let known = self.order.get(self.at).copied().filter(|i| self.layout.members[*i].name == member);
+        let found = known.or_else(|| self.layout.index(member))?;
+        if known.is_none() {
+            self.order.truncate(self.at);
+            self.order.push(found);
+        }
+        self.at += 1;
+        Some(found)
     }
 
     /// Writes the numbers of a field into the member of its name, where there is one; nothing where it has none now.
@@ -108,7 +123,7 @@ impl<'a> Block<'a> {
 
     /// Writes a member: a number, a vector as an array, a matrix as its columns with four numbers each.
     pub fn put<T: bytemuck::NoUninit>(&mut self, member: &str, value: T) {
-        let Some(index) = self.layout.index(member) else {
+        let Some(index) = self.find(member) else {
             self.faults.push(format!("there is no member {member}"));
             return;
         };
@@ -142,20 +157,22 @@ impl<'a> Block<'a> {
 pub(crate) struct Filled {
     layout: Layout,
     bytes: Vec<u8>,
+    /// In which its members are written.
+    order: Vec<usize>,
 }
 
 impl Filled {
     /// The struct of this name in a file of `wgsl/`.
     pub fn of(module: &str, name: &str) -> Self {
         let layout = Layout::of(super::shaders::file(module), name);
-        Self { bytes: vec![0; layout.size], layout }
+        Self { bytes: vec![0; layout.size], layout, order: Vec::new() }
     }
 
     /// The same of a struct that has members of others.
     pub fn of_file(module: &str, imports: &[&str], name: &str) -> Self {
         let texts = imports.iter().chain([&module]).map(|module| super::shaders::file(module));
         let layout = Layout::of(&texts.collect::<Vec<_>>().join("\n"), name);
-        Self { bytes: vec![0; layout.size], layout }
+        Self { bytes: vec![0; layout.size], layout, order: Vec::new() }
     }
 
     /// Its size, bytes.
@@ -169,7 +186,9 @@ impl Filled {
     /// Where a member is missing or does not exist: a fault of ours, which any test that draws finds.
     pub fn fill(&mut self, fill: impl FnOnce(&mut Block<'_>)) -> &[u8] {
         let mut block = Block::new(&self.layout, &mut self.bytes);
+        block.order = std::mem::take(&mut self.order);
         fill(&mut block);
+        self.order = std::mem::take(&mut block.order);
         let faults = block.faults();
         assert!(faults.is_empty(), "{}", faults.join("; "));
         &self.bytes
@@ -186,7 +205,7 @@ mod tests {
     #[test]
     fn members_lie_where_the_front_end_says() {
         let layout = Layout::of(TEXT, "Some");
-        let mut filled = Filled { bytes: vec![0; layout.size], layout };
+        let mut filled = Filled { bytes: vec![0; layout.size], layout, order: Vec::new() };
         let bytes = filled.fill(|b| {
             b.put("a", [1f32, 2.0, 3.0]);
             b.put("b", 4f32);

@@ -45,7 +45,8 @@ pub struct AffineRows {
 
 impl From<Mat4> for AffineRows {
     fn from(m: Mat4) -> Self {
-        Self { row_x: m.row(0).to_array(), row_y: m.row(1).to_array(), row_z: m.row(2).to_array() }
+        let rows = m.transpose();
+        Self { row_x: rows.x_axis.to_array(), row_y: rows.y_axis.to_array(), row_z: rows.z_axis.to_array() }
     }
 }
 
