@@ -40,16 +40,23 @@ fn vs_main(@builtin(vertex_index) vertex: u32) -> GroundVarying {
 fn lines(at: vec2f, wide: vec2f) -> f32 {
     let away = abs(fract(at / ground.grid_spacing + 0.5) - 0.5) * ground.grid_spacing;
     // Those that are narrower than a pixel are as much fainter.
-    let half_width = vec2f(ground.grid_width * 0.5);
-    let cover = saturate((half_width - away) / wide + 0.5) * saturate(ground.grid_width / wide);
-    return max(cover.x, cover.y);
+    let cover = min((ground.grid_width * 0.5 - away) / wide + 0.5, min(ground.grid_width / wide, vec2f(1.0)));
+    return saturate(max(cover.x, cover.y));
 }
 
 @fragment
 fn fs_main(in: GroundVarying) -> @location(0) vec4f {
     let up = vec3f(0.0, 1.0, 0.0);
     let fade = 1.0 - smoothstep(0.5, 1.0, distance(in.world, ground.middle) / ground.radius);
-    var share = stage_shadow(ground.shadow, shadow_map, shadow_sampler, in.world, up);
+    // Edges are finer than a pixel where the ground is seen along itself: four places stand for one.
+    let across = dpdx(in.world);
+    let down = dpdy(in.world);
+    var share = 0.0;
+    for (var i = 0; i < 4; i++) {
+        let place = vec2f(f32(i) * 0.25 - 0.375, f32((i * 3 + 2) % 5) * 0.25 - 0.375);
+        let at = in.world + across * place.x + down * place.y;
+        share += 0.25 * stage_shadow(ground.shadow, shadow_map, shadow_sampler, at, up);
+    }
     // From below nothing arrives.
     share *= step(0.0, frame.to_light.y);
     @if(shadow_only) {

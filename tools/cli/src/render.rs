@@ -288,6 +288,10 @@ fn seen(args: &Args, shot: &Shot, stage: &mut Stage) -> Result<View, Failure> {
         view.background = background;
     }
     view.channel = args.channel;
+    if let Some(ground) = &mut stage.ground {
+        // It begins to fade where the picture of a whole character ends.
+        ground.radius_m = ground.radius_m.max(view.camera.eye.distance(view.camera.target));
+    }
     Ok(view)
 }
 
