@@ -22,8 +22,20 @@ pub(crate) fn start(seconds: f64) {
             Failure::input(message)
         };
         failure.print();
-        std::process::exit(failure.status());
+        end(failure.status());
     });
+}
+
+/// Ends the program while other threads go on. What a graphics driver does at the exit of a process crashes where one of them is
+/// still in it; another program in the place of this one has no such threads.
+fn end(status: i32) -> ! {
+    #[cfg(unix)]
+    {
+        use std::os::unix::process::CommandExt;
+        // It only comes back where there is no shell.
+        let _ = std::process::Command::new("/bin/sh").args(["-c", &format!("exit {status}")]).exec();
+    }
+    std::process::exit(status);
 }
 
 /// From here on the graphics driver is to blame.
