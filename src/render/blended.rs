@@ -8,7 +8,7 @@ use super::bind;
 use super::uploads::Uploads;
 use super::vertex::Instance;
 use crate::Gpu;
-use crate::stage::body::Bodies;
+use crate::stage::bodies::Bodies;
 use crate::stage::crowd::Crowd;
 
 /// Actors of a troupe whose blended surfaces take their turns by distance, each for itself. Of more, each surface is drawn for

@@ -18,7 +18,8 @@ use super::{Output, uv_metric};
 use crate::material::{AlphaMode, Material, Surroundings};
 use crate::motion::Driven;
 use crate::scene::{Role, Scene};
-use crate::stage::body::{Bodies, Body};
+use crate::stage::bodies::Bodies;
+use crate::stage::body::Body;
 use crate::stage::troupe::Troupe;
 
 /// One draw: a range of indices under one material.

@@ -23,7 +23,7 @@ use super::{
 };
 use crate::color::Srgb;
 use crate::scene::{Image, Post, ToneCurve};
-use crate::stage::body::Bodies;
+use crate::stage::bodies::Bodies;
 use crate::{Error, Gpu, Result, Stage};
 
 /// What frames are drawn with, and into.

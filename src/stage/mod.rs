@@ -1,11 +1,14 @@
 //! A stage: characters in places and poses of their own, and the light on them.
 
 mod actor;
+pub(crate) mod bodies;
 pub(crate) mod body;
 pub(crate) mod crowd;
 mod ground;
+mod maps;
 mod shadow;
 pub(crate) mod troupe;
+mod volume;
 
 pub use actor::Actor;
 pub use ground::{Grid, Ground};
@@ -17,7 +20,7 @@ use crate::material::out_of_range;
 use crate::render::Character;
 use crate::scene::{Lights, Post};
 use crate::{Error, Result};
-use body::Bodies;
+use bodies::Bodies;
 
 /// What is drawn: actors, and what falls on all of them. Plain data that an application changes as it likes between frames;
 /// [`Renderer::prepare`](crate::Renderer::prepare) finds what has changed.

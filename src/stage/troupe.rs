@@ -10,7 +10,7 @@ use crate::render::uploads::Uploads;
 use crate::render::vertex::AffineRows;
 use crate::render::{Character, CharacterData, Renderer};
 
-use super::body::MapsKey;
+use super::maps::MapsKey;
 
 /// Actors of one character, as many as their buffers may hold; the rest are another troupe.
 #[derive(Debug)]
