@@ -6,7 +6,7 @@ use super::blended::BlendedList;
 use super::character::Shown as Drawables;
 use super::draw_list::Actors;
 use super::layout::Filled;
-use super::numbers::{frame_numbers, put_view};
+use super::numbers::put_view;
 use super::pass::bangs_shadow::{self, BangsShadowInputs};
 use super::pass::bloom::{BloomChain, BloomInputs, BloomPass};
 use super::pass::floor::FloorPass;
@@ -94,8 +94,7 @@ impl<'a> Shown<'a> {
 }
 
 impl Frame {
-    pub fn new(gpu: &Gpu, layouts: &Layouts) -> Self {
-        let numbers = frame_numbers();
+    pub fn new(gpu: &Gpu, layouts: &Layouts, numbers: Filled) -> Self {
         let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
         let uniform = bind::buffer(gpu, "frame", numbers.size(), usage);
         Self {

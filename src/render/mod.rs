@@ -159,13 +159,14 @@ impl Renderer {
             return Err(Error::Argument { what: "samples".to_owned(), message });
         }
         gpu.scoped(|| {
-            let layouts = Layouts::new(gpu);
+            let numbers = frame_numbers();
+            let layouts = Layouts::new(gpu, numbers.size());
             let variants = Variants::new(gpu, Shaders::new()?, layouts.frame.clone(), layouts.character.clone());
             Ok(Self {
                 output,
                 deform: DeformPass::new(&variants)?,
                 variants,
-                frame: Mutex::new(Frame::new(gpu, &layouts)),
+                frame: Mutex::new(Frame::new(gpu, &layouts, numbers)),
                 layouts,
                 bangs_near: OnceLock::new(),
                 ground: OnceLock::new(),
@@ -284,12 +285,12 @@ impl Renderer {
 }
 
 impl Layouts {
-    fn new(gpu: &Gpu) -> Self {
+    fn new(gpu: &Gpu, frame_bytes: u64) -> Self {
         use wgpu::{BindingType::Sampler, SamplerBindingType, TextureSampleType as T, TextureViewDimension as D};
         let both = wgpu::ShaderStages::VERTEX_FRAGMENT;
         let read = |ty| (wgpu::ShaderStages::FRAGMENT, ty);
         let frame = [
-            (both, bind::uniform(Some(frame_numbers().size()))),
+            (both, bind::uniform(Some(frame_bytes))),
             read(bind::texture(T::Depth, D::D2)),
             read(bind::texture(T::Uint, D::D2)),
         ];

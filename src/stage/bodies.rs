@@ -49,6 +49,7 @@ pub(super) struct Scratch {
 const MANY: usize = 8;
 /// Other actors that cast on one, at most.
 const MOST_CASTING: usize = 16;
+
 impl Stage {
     /// Makes the bodies those of the actors: new ones, vanished ones, poses, places, lists.
     pub(crate) fn embody(&mut self, renderer: &Renderer) -> Result<()> {

@@ -43,7 +43,8 @@ fn shadow_receiver(v: Vertex, position: vec3f, normal: vec3f) -> vec4f {
     return vec4f(at + by * a.shadow_bias, a.shadow_layer);
 }
 
-// Share of the key light that arrives there. What lies beyond the map is lit, and so is what the caller does not need (`wanted`).
+// Share of the key light that arrives there. What lies beyond the map is lit, and so is what the caller does not need
+// (`wanted`).
 fn shadow_lit(actor: u32, at: vec4f, wanted: bool) -> f32 {
     let layer = i32(round(at.w));
     let spread = actors[actor].shadow_spread;
