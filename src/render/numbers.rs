@@ -118,6 +118,7 @@ pub(crate) fn put_actor(gpu: &mut Block<'_>, of: &ActorState<'_>) {
     gpu.put("bangs_bias", bias);
     gpu.put("bangs_origin", tile.origin);
     gpu.put("bangs_side", tile.side);
+    gpu.put("bangs_layer", tile.layer);
     gpu.put("through_opacity", through.map_or(0.0, |t| t.opacity));
     gpu.put("through_window", through.map_or(0.0, |t| t.window_m));
     gpu.put("through_fade_yaw", through.map_or([0.0; 2], |t| t.fade_yaw_rad));

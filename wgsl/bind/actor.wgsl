@@ -21,6 +21,8 @@ struct Actor {
     key_light: f32,
     // Texels along the tile of its map.
     bangs_side: f32,
+    // First layer of its page.
+    bangs_layer: f32,
     // First texel of that.
     bangs_origin: vec2f,
     // Eyes through hair: opacity, metres, cosines between which it fades.

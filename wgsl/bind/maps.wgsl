@@ -11,7 +11,7 @@ import package::lib::shadow::{shadow_moved, shadow_place, shadow_share};
 @group(1) @binding(5) var shadow_map: texture_depth_2d_array;
 @group(1) @binding(6) var shadow_sampler: sampler_comparison;
 
-// Layers of the map: what casts on the face, and lids with lashes on the eyes.
+// Maps of an actor: what casts on the face, and lids with lashes on the eyes.
 const BANGS_LAYER: i32 = 0;
 const LIDS_LAYER: i32 = 1;
 
@@ -55,7 +55,8 @@ fn shadow_lit(actor: u32, at: vec4f, wanted: bool) -> f32 {
 
 // Share of light that a layer lets through to a place of the map. What lies beyond its border is lit, and so is what the
 // caller does not need (`wanted`).
-fn bangs_lit(actor: u32, at: vec3f, layer: i32, wanted: bool) -> f32 {
+fn bangs_lit(actor: u32, at: vec3f, kind: i32, wanted: bool) -> f32 {
+    let layer = i32(actors[actor].bangs_layer) + kind;
     let hardness = actors[actor].bangs_hardness;
     let bias = actors[actor].bangs_bias;
     let side = actors[actor].bangs_side;

@@ -18,6 +18,9 @@ use crate::stage::troupe::Troupe;
 /// Depth of the nearest hair, 0..1 over the range.
 pub(crate) const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R32Float;
 
+/// Heads of one character that have a page each, where their maps are what they would be alone; more share one.
+const MOST_PAGES: usize = 8;
+
 /// How the map of a character fits its head.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BangsFit {
@@ -37,6 +40,10 @@ pub(crate) struct BangsAtlas {
     stride: u32,
     columns: u32,
     tiles: usize,
+    /// Tiles of a page.
+    on_page: usize,
+    /// Maps of a tile: what casts on the face, and lids where something receives their shadow.
+    kinds: usize,
     /// The maps as shaders read them: what casts on the face, then lids and lashes where something receives their shadow.
     pub view: wgpu::TextureView,
     /// Nearest depths of their blocks.
@@ -51,6 +58,8 @@ pub(crate) struct BangsTile {
     /// First texel, and texels along a side.
     pub origin: [f32; 2],
     pub side: f32,
+    /// First layer of its page.
+    pub layer: f32,
 }
 
 /// One layer of the maps as passes draw them.
@@ -126,11 +135,14 @@ impl BangsAtlas {
     /// Room for the maps of so many heads.
     pub fn new(gpu: &Gpu, reduce: &BangsNearPass, fit: &BangsFit, tiles: usize) -> Self {
         let (side, stride) = (fit.side(), fit.stride());
-        let columns = ((tiles as f64).sqrt().ceil() as u32).clamp(1, MAX_TEXTURE_SIDE / stride);
-        let rows = (tiles as u32).div_ceil(columns).max(1);
+        let on_page = if tiles > MOST_PAGES { tiles } else { 1 };
+        let pages = tiles.div_ceil(on_page) as u32;
+        let columns = ((on_page as f64).sqrt().ceil() as u32).clamp(1, MAX_TEXTURE_SIDE / stride);
+        let rows = (on_page as u32).div_ceil(columns).max(1);
         // Of a single tile, its border is that of the texture.
         let size = [columns, rows].map(|n| (n - 1) * stride + side);
-        let count = if fit.lids { 2 } else { 1 };
+        let kinds = if fit.lids { 2 } else { 1 };
+        let count = kinds * pages;
         let view = targets::layers(gpu, "bangs", size, count, FORMAT);
         let near = targets::layers(gpu, "bangs near", size.map(|s| s.div_ceil(bangs_near::BLOCK)), count, FORMAT);
         let layers = (0..count)
@@ -140,7 +152,8 @@ impl BangsAtlas {
             })
             .collect();
         let depth = targets::layers(gpu, "bangs depth", size, 1, DEPTH_FORMAT);
-        Self { side, stride, columns, tiles, layers, near, view, depth }
+        let kinds = kinds as usize;
+        Self { side, stride, columns, tiles, on_page, kinds, layers, near, view, depth }
     }
 
     /// How many tiles it has room for.
@@ -150,8 +163,14 @@ impl BangsAtlas {
 
     /// Where the tile of a slot lies.
     pub fn place(&self, slot: u32) -> BangsTile {
-        let origin = [slot % self.columns, slot / self.columns].map(|n| (n * self.stride) as f32);
-        BangsTile { origin, side: self.side as f32 }
+        let (page, tile) = (self.page(slot), slot % self.on_page as u32);
+        let origin = [tile % self.columns, tile / self.columns].map(|n| (n * self.stride) as f32);
+        BangsTile { origin, side: self.side as f32, layer: (page * self.kinds) as f32 }
+    }
+
+    /// The page of a slot.
+    fn page(&self, slot: u32) -> usize {
+        slot as usize / self.on_page
     }
 }
 
@@ -178,22 +197,22 @@ pub(crate) fn encode(
         let end = timestamps.clone().filter(|_| i == last);
         let begin = begin.map(|t| wgpu::RenderPassTimestampWrites { end_of_pass_write_index: None, ..t });
         let end = end.map(|t| wgpu::RenderPassTimestampWrites { beginning_of_pass_write_index: None, ..t });
-        encode_layer(encoder, inputs, &layer.map, i > 0, begin);
+        encode_layer(encoder, inputs, i, begin);
         inputs.reduce.encode(encoder, &BangsNearInputs { map: &layer.near_input, near: &layer.near }, end);
     }
 }
 
-/// `lids`: what casts on the eyes instead of on the face.
+/// The second map of a tile holds what casts on the eyes instead of on the face.
 fn encode_layer(
     encoder: &mut wgpu::CommandEncoder,
     inputs: &BangsShadowInputs<'_>,
-    layer: &wgpu::TextureView,
-    lids: bool,
+    index: usize,
     timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
 ) {
-    let BangsShadowInputs { actors, of, .. } = inputs;
+    let BangsShadowInputs { actors, of, atlas, .. } = inputs;
+    let (page, lids) = (index / atlas.kinds, index % atlas.kinds > 0);
     // No hair: behind everything.
-    let map = targets::color(layer, wgpu::LoadOp::Clear(wgpu::Color::WHITE));
+    let map = targets::color(&atlas.layers[index].map, wgpu::LoadOp::Clear(wgpu::Color::WHITE));
     let depth = targets::depth(&inputs.atlas.depth, 1.0, wgpu::StoreOp::Discard);
     let mut pass = targets::begin(encoder, "bangs shadow", Some(map), Some(depth), timestamps);
     let casts = |draw: &Draw| if lids { draw.casts_lids } else { draw.casts_on_face };
@@ -207,8 +226,9 @@ fn encode_layer(
             bound = troupe;
         }
     };
-    for body in of.instances.clone().map(|at| actors.body(at)) {
-        let BangsTile { origin: [x, y], side } = inputs.atlas.place(body.slot());
+    let on_page = of.instances.clone().map(|at| actors.body(at)).filter(|body| atlas.page(body.slot()) == page);
+    for body in on_page {
+        let BangsTile { origin: [x, y], side, .. } = atlas.place(body.slot());
         pass.set_viewport(x, y, side, side, 0.0, 1.0);
         pass.set_scissor_rect(x as u32, y as u32, side as u32, side as u32);
         bind(&mut pass, of);
