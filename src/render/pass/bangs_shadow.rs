@@ -210,7 +210,7 @@ fn encode_layer(
     timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
 ) {
     let BangsShadowInputs { actors, of, atlas, .. } = inputs;
-    let (page, lids) = (index / atlas.kinds, index % atlas.kinds > 0);
+    let (page, lids) = (index / atlas.kinds, !index.is_multiple_of(atlas.kinds));
     // No hair: behind everything.
     let map = targets::color(&atlas.layers[index].map, wgpu::LoadOp::Clear(wgpu::Color::WHITE));
     let depth = targets::depth(&inputs.atlas.depth, 1.0, wgpu::StoreOp::Discard);
