@@ -5,6 +5,7 @@
 
 mod esm;
 mod face;
+mod hair;
 mod mtoon;
 mod stylized;
 

@@ -1,0 +1,273 @@
+//! Light on hair: Kajiya-Kay lobes, and the fibre model with its laws.
+
+use serde_json::Value;
+
+use super::{assert_close, cases, numbers, run, vectors};
+
+/// The rows of cases with numbers of their own before those at the paths.
+fn rows(list: &[Value], before: impl Fn(&Value) -> Vec<f32>, paths: &[&str]) -> Vec<Vec<f32>> {
+    list.iter().map(|case| [before(case), numbers(case, paths)].concat()).collect()
+}
+
+fn none(_: &Value) -> Vec<f32> {
+    Vec::new()
+}
+
+#[test]
+fn strand_highlights_follow_their_vectors() {
+    let file = vectors("hair_kajiya_kay.json");
+    let list = cases(&file, "cases");
+    let rows = rows(list, none, &["N", "T", "L", "V", "shift1", "n1", "shift2", "n2"]);
+    let body = "
+        let n = input3(base); let t = input3(base + 3u); let l = input3(base + 6u); let v = input3(base + 9u);
+        let h = normalize(l + v);
+        let first = shifted_strand(t, n, input[base + 12u]);
+        write3(out, first);
+        output[out + 3u] = strand_specular(first, h, input[base + 13u]);
+        output[out + 4u] = strand_specular(shifted_strand(t, n, input[base + 14u]), h, input[base + 15u]);
+        output[out + 5u] = wrapped_lambert(dot(n, l), 1.0);
+        output[out + 6u] = wrapped_lambert(dot(n, l), 1.0 / 3.0);
+        output[out + 7u] = strand_specular(first, normalize(v + l), input[base + 13u]);";
+    for (i, (case, found)) in list.iter().zip(run(&["kajiya_kay"], body, &rows, 8)).enumerate() {
+        let expected = numbers(case, &["T1", "spec1", "spec2", "half_lambert", "diffuse_scheuermann", "spec1"]);
+        assert_close("kajiya-kay", i, &found, &expected, 1e-4);
+    }
+}
+
+/// On a sphere of 512 pixels the highlight moves by atan(shift) towards the tip, to half a pixel.
+#[test]
+fn highlights_move_by_the_angle_of_their_shift() {
+    let file = vectors("hair_kajiya_kay.json");
+    for case in cases(&file, "peak_on_sphere") {
+        let [shift, theta_h, peak] = numbers(case, &["shift", "theta_H", "theta_peak"])[..] else { panic!("three") };
+        // A radian of the sphere is 256 pixels.
+        let px = 1.0 / 256.0;
+        let rows: Vec<Vec<f32>> = (-60..=60).map(|i| vec![peak + i as f32 * px * 0.25, theta_h, shift]).collect();
+        let body = "
+            let at = input[base]; let half = input[base + 1u];
+            let n = vec3f(sin(at), cos(at), 0.0); let t = vec3f(cos(at), -sin(at), 0.0);
+            output[out] = strand_specular(shifted_strand(t, n, input[base + 2u]), vec3f(sin(half), cos(half), 0.0), 4000.0);";
+        let found = run(&["kajiya_kay"], body, &rows, 1);
+        let brightest = (0..rows.len()).max_by(|a, b| found[*a][0].total_cmp(&found[*b][0])).expect("some");
+        let off_px = (rows[brightest][0] - peak).abs() / px;
+        assert!(off_px <= 0.5, "shift {shift}: {off_px} px");
+    }
+}
+
+/// Half of the peak is left at acos(0.5^(1/n)).
+#[test]
+fn highlights_have_the_width_of_their_exponent() {
+    let rows: Vec<Vec<f32>> =
+        [4.0f32, 20.0, 80.0, 300.0].map(|n| vec![n, 0.5f32.powf(1.0 / n).acos()]).into();
+    let body = "output[out] = strand_specular(vec3f(1.0, 0.0, 0.0), vec3f(sin(input[base + 1u]), cos(input[base + 1u]), 0.0), input[base])
+        / smoothstep(-1.0, 0.0, sin(input[base + 1u]));";
+    for (i, found) in run(&["kajiya_kay"], body, &rows, 1).iter().enumerate() {
+        assert_close("width", i, found, &[0.5], 1e-4);
+    }
+}
+
+const LONGITUDINAL: &str = "
+    let v = input[base]; let i = input[base + 1u]; let o = input[base + 2u];
+    let m = fibre_longitudinal(v, sin(i), cos(i), sin(o), cos(o));";
+
+#[test]
+fn longitudinal_scattering_follows_its_vectors() {
+    let file = vectors("hair_mp.json");
+    let list = cases(&file, "cases");
+    let rows = rows(list, none, &["v", "theta_i", "theta_r"]);
+    let found = run(&["fibre"], &format!("{LONGITUDINAL} output[out] = m;"), &rows, 1);
+    for (i, (case, found)) in list.iter().zip(&found).enumerate() {
+        let expected = numbers(case, &["M"])[0];
+        assert!(found[0].is_finite(), "case {i}");
+        assert!((found[0] - expected).abs() <= 2e-3 * expected.max(1e-6), "case {i}: {found:?}, expected {expected}");
+    }
+}
+
+/// No energy is lost along the fibre, at any roughness and any inclination.
+#[test]
+fn longitudinal_scattering_conserves_energy() {
+    let mut rows = Vec::new();
+    for beta in [0.05f32, 0.1, 0.3, 0.5, 0.7, 0.9, 1.0] {
+        let v = (0.726 * beta + 0.812 * beta * beta + 3.7 * beta.powi(20)).powi(2);
+        for degrees in [-85.0f32, -60.0, -30.0, 0.0, 15.0, 45.0, 75.0, 85.0] {
+            rows.push(vec![v, degrees.to_radians()]);
+        }
+    }
+    let body = "
+        var sum = 0.0;
+        for (var k = 0; k < 8192; k++) {
+            let o = ((f32(k) + 0.5) / 8192.0 - 0.5) * PI;
+            sum += fibre_longitudinal(input[base], sin(input[base + 1u]), cos(input[base + 1u]), sin(o), cos(o)) * cos(o);
+        }
+        output[out] = sum * PI / 8192.0;";
+    for (row, found) in rows.iter().zip(run(&["fibre"], body, &rows, 1)) {
+        assert!((found[0] - 1.0).abs() <= 1e-3, "{row:?}: {}", found[0]);
+    }
+}
+
+#[test]
+fn attenuation_follows_its_vectors() {
+    let file = vectors("hair_attenuation.json");
+    let list = cases(&file, "cases");
+    let rows = rows(list, none, &["theta", "h", "eta", "sigma_a"]);
+    let body = "
+        let c = fibre_crossing(sin(input[base]), cos(input[base]), input[base + 1u], input[base + 2u]);
+        output[out] = c.gamma_i; output[out + 1u] = c.gamma_t; output[out + 2u] = c.fresnel; output[out + 3u] = c.length;
+        for (var k = 0u; k < 3u; k++) {
+            let a = fibre_attenuation(c.fresnel, exp(-input[base + 3u + k] * c.length));
+            output[out + 4u + k] = a.x; output[out + 7u + k] = a.y;
+            output[out + 10u + k] = a.z; output[out + 13u + k] = a.w;
+        }";
+    let paths = ["gamma_i", "gamma_t", "fresnel", "path_length", "A0", "A1", "A2", "A3plus"];
+    for (i, (case, found)) in list.iter().zip(run(&["fibre"], body, &rows, 16)).enumerate() {
+        assert_close("attenuation", i, &found, &numbers(case, &paths), 1e-4);
+        let sum: f32 = [4, 7, 10, 13].map(|k| found[k]).iter().sum();
+        assert!(sum <= 1.0 + 1e-5, "case {i} gains energy: {sum}");
+    }
+}
+
+#[test]
+fn azimuthal_scattering_follows_its_vectors() {
+    let file = vectors("hair_azimuthal.json");
+    let list = cases(&file, "near_field");
+    let near = rows(list, none, &["p", "theta", "h", "eta", "s", "phi"]);
+    let body = "
+        let c = fibre_crossing(sin(input[base + 1u]), cos(input[base + 1u]), input[base + 2u], input[base + 3u]);
+        let exit = fibre_exit(input[base], c.gamma_i, c.gamma_t);
+        output[out] = exit;
+        output[out + 1u] = trimmed_logistic(input[base + 5u] - exit, input[base + 4u]);";
+    for (i, (case, found)) in list.iter().zip(run(&["fibre"], body, &near, 2)).enumerate() {
+        assert_close("exit", i, &found[..1], &numbers(case, &["Phi"]), 1e-4);
+        let expected = numbers(case, &["D"])[0];
+        assert_close("detector", i, &found[1..], &[expected], (expected * 5e-3).max(1e-5));
+    }
+
+    let list = cases(&file, "far_field");
+    let kind = |c: &Value| vec![f32::from(u8::from(c["kind"] == "gaussian"))];
+    let far = rows(list, kind, &["phi", "theta", "eta", "width", "p", "sigma_a"]);
+    let body = "
+        let d = Detector(input[base + 4u], input[base] > 0.5);
+        let o = input[base + 2u];
+        for (var k = 0u; k < 3u; k++) {
+            let n = fibre_azimuthal(input[base + 1u], sin(o), cos(o), input[base + 3u], input[base + 6u + k], d, 128u);
+            output[out + k] = n[u32(input[base + 5u])];
+        }";
+    let found = run(&["fibre"], body, &far, 3);
+    // Against the peak of the same lobe, as a picture would show it.
+    let lobe = |c: &Value| (c["p"].clone(), c["theta"].clone(), c["kind"].clone(), c["width"].clone());
+    for (i, (case, found)) in list.iter().zip(&found).enumerate() {
+        let peak = list.iter().filter(|c| lobe(c) == lobe(case)).flat_map(|c| numbers(c, &["N"])).fold(0.0, f32::max);
+        assert_close("far field", i, found, &numbers(case, &["N"]), peak * 1e-2);
+    }
+}
+
+/// A nearly smooth fibre scatters as a smooth one, whose roots are known, away from its caustics.
+#[test]
+fn azimuthal_scattering_has_the_limit_of_a_smooth_fibre() {
+    let file = vectors("hair_azimuthal.json");
+    let list = cases(&file, "smooth");
+    let rows = rows(list, none, &["phi", "theta", "eta", "p", "sigma_a"]);
+    let body = "
+        let o = input[base + 1u];
+        for (var k = 0u; k < 3u; k++) {
+            let n = fibre_azimuthal(
+                input[base], sin(o), cos(o), input[base + 2u], input[base + 4u + k], Detector(0.01, true), 4096u
+            );
+            output[out + k] = n[u32(input[base + 3u])];
+        }";
+    for (i, (case, found)) in list.iter().zip(run(&["fibre"], body, &rows, 3)).enumerate() {
+        let expected = numbers(case, &["N"]);
+        let most = expected.iter().copied().fold(0.0, f32::max);
+        assert_close("smooth limit", i, &found, &expected, (most * 0.02).max(2e-4));
+    }
+}
+
+#[test]
+fn the_whole_fibre_follows_its_vectors() {
+    let file = vectors("hair_bcsdf.json");
+    let list = cases(&file, "cases");
+    let rough = |c: &Value| {
+        let [m, n] = numbers(c, &["beta_m", "beta_n"])[..] else { panic!("two") };
+        let v = (0.726 * m + 0.812 * m * m + 3.7 * m.powi(20)).powi(2);
+        vec![v, 0.626_657_07 * (0.265 * n + 1.194 * n * n + 5.372 * n.powi(22))]
+    };
+    let rows = rows(list, rough, &["theta_o", "theta_i", "phi", "h", "eta", "alpha", "sigma_a"]);
+    let body = "
+        let v = input[base]; let s = input[base + 1u]; let o = input[base + 2u]; let i = input[base + 3u];
+        let c = fibre_crossing(sin(o), cos(o), input[base + 5u], input[base + 6u]);
+        let alpha = input[base + 7u];
+        let tilts = vec3f(-2.0, 1.0, 4.0) * alpha;
+        let variances = vec4f(v, 0.25 * v, 4.0 * v, 4.0 * v);
+        var m = vec4f(0.0);
+        for (var p = 0; p < 3; p++) {
+            let to = fibre_tilted(sin(o), cos(o), vec2f(sin(tilts[p]), cos(tilts[p])));
+            m[p] = fibre_longitudinal(variances[p], sin(i), cos(i), to.x, to.y)
+                * trimmed_logistic(input[base + 4u] - fibre_exit(f32(p), c.gamma_i, c.gamma_t), s);
+        }
+        m.w = fibre_longitudinal(variances.w, sin(i), cos(i), sin(o), cos(o)) / (2.0 * PI);
+        for (var k = 0u; k < 3u; k++) {
+            output[out + k] = dot(m, fibre_attenuation(c.fresnel, exp(-input[base + 8u + k] * c.length)));
+        }";
+    for (i, (case, found)) in list.iter().zip(run(&["fibre"], body, &rows, 3)).enumerate() {
+        for (found, expected) in found.iter().zip(numbers(case, &["S"])) {
+            let bound = (expected * 1e-2).max(1e-5);
+            assert!((found - expected).abs() <= bound, "case {i}: {found}, expected {expected}");
+        }
+    }
+}
+
+/// A white fibre gives back all light, whatever its roughness, from any side, with tilted scales, too.
+#[test]
+fn a_white_fibre_in_a_furnace_vanishes() {
+    let mut rows = Vec::new();
+    for m in [0.1f32, 0.3, 0.5, 0.7, 0.9] {
+        for n in [0.1f32, 0.3, 0.5, 0.7, 0.9] {
+            for degrees in [0.0f32, 40.0, 70.0] {
+                rows.push(vec![
+                    (0.726 * m + 0.812 * m * m + 3.7 * m.powi(20)).powi(2),
+                    0.626_657_07 * (0.265 * n + 1.194 * n * n + 5.372 * n.powi(22)),
+                    degrees.to_radians(),
+                ]);
+            }
+        }
+    }
+    // Along: each lobe over all inclinations of the light. About: each lobe of a whole fibre over all angles. Mesa ends loops after
+    // 65536 rounds in all.
+    let body = "
+        let v = input[base]; let d = Detector(input[base + 1u], false); let o = input[base + 2u];
+        let tilts = vec4f(-2.0, 1.0, 4.0, 0.0) * 0.0349;
+        let variances = vec4f(v, 0.25 * v, 4.0 * v, 4.0 * v);
+        var along = vec4f(0.0);
+        for (var k = 0; k < 2048; k++) {
+            let i = ((f32(k) + 0.5) / 2048.0 - 0.5) * PI;
+            for (var p = 0; p < 4; p++) {
+                let to = fibre_tilted(sin(o), cos(o), vec2f(sin(tilts[p]), cos(tilts[p])));
+                along[p] += fibre_longitudinal(variances[p], sin(i), cos(i), to.x, to.y) * cos(i) * PI / 2048.0;
+            }
+        }
+        var about = vec4f(0.0);
+        for (var k = 0; k < 256; k++) {
+            about += fibre_azimuthal((f32(k) + 0.5) / 256.0 * 2.0 * PI, sin(o), cos(o), 1.55, 0.0, d, 128u) * 2.0 * PI / 256.0;
+        }
+        output[out] = dot(along, about);";
+    for (row, found) in rows.iter().zip(run(&["fibre"], body, &rows, 1)) {
+        assert!((found[0] - 1.0).abs() <= 1e-2, "{row:?}: {}", found[0]);
+    }
+}
+
+#[test]
+fn colours_become_absorption() {
+    let file = vectors("hair_melanin.json");
+    let list = cases(&file, "reflectance");
+    let scale = |c: &Value| {
+        let n = numbers(c, &["beta_n"])[0];
+        vec![5.969 - 0.215 * n + 2.532 * n.powi(2) - 10.73 * n.powi(3) + 5.574 * n.powi(4) + 0.245 * n.powi(5)]
+    };
+    let rows = rows(list, scale, &["color"]);
+    let body = "write3(out, fibre_absorption(input3(base + 1u), input[base]));";
+    for (i, (case, found)) in list.iter().zip(run(&["fibre"], body, &rows, 3)).enumerate() {
+        for (found, expected) in found.iter().zip(numbers(case, &["sigma_a"])) {
+            assert!((found - expected).abs() <= expected * 1e-3 + 1e-6, "case {i}: {found}, expected {expected}");
+        }
+    }
+}

@@ -1,0 +1,139 @@
+// Light through a hair: a rough dielectric cylinder with absorption. Longitudinal scattering and roughened azimuth of d'Eon et
+// al. 2011; parameters, tilts and logistic detector of Chiang et al. 2016; paths of Marschner et al. 2003 with the chord of the
+// circle (2 cos gamma_t). Angles in radians; theta is the inclination from the plane that is square to the fibre, phi the angle
+// about it from the viewer to the light, h = sin gamma_i the offset across it, absorption per fibre radius.
+
+const PI: f32 = 3.14159265;
+
+// ln (e^-x I0(x)) by Abramowitz and Stegun 9.8.1 and 9.8.2 (relative error 4e-7).
+fn log_i0e(x: f32) -> f32 {
+    let t = x / 3.75;
+    let u = t * t;
+    let near = 1.0 + u * (3.5156229 + u * (3.0899424 + u * (1.2067492 + u * (0.2659732 + u * (0.0360768 + u * 0.0045813)))));
+    let r = 1.0 / max(t, 1e-6);
+    let far = 0.39894228 + r * (0.01328592 + r * (0.00225319 + r * (-0.00157565 + r * (0.00916281 + r * (-0.02057706
+        + r * (0.02635537 + r * (-0.01647633 + r * 0.00392377)))))));
+    return select(log(max(far, 1e-6)) - 0.5 * log(max(x, 1e-6)), log(near) - x, x < 3.75);
+}
+
+// Longitudinal scattering M of variance v: the integral of M cos theta over theta is 1. Half the squared distance of the two
+// directions stands for 1 - cos of their sum, which keeps its digits for any v.
+fn fibre_longitudinal(v: f32, sin_i: f32, cos_i: f32, sin_o: f32, cos_o: f32) -> f32 {
+    let across = cos_i - cos_o;
+    let along = sin_i + sin_o;
+    let off = 0.5 * (across * across + along * along);
+    return exp(log_i0e(cos_i * cos_o / v) - off / v - log(v) - log(1.0 - exp(-2.0 / v)));
+}
+
+// Sine and cosine of an inclination that the scales of the hair tilt.
+fn fibre_tilted(sin_o: f32, cos_o: f32, tilt: vec2f) -> vec2f {
+    return vec2f(sin_o * tilt.y + cos_o * tilt.x, abs(cos_o * tilt.y - sin_o * tilt.x));
+}
+
+// Fresnel's reflectance of unpolarised light; 1 beyond the critical angle.
+fn fresnel_dielectric(cos_i: f32, eta: f32) -> f32 {
+    let c = saturate(cos_i);
+    let sin2_t = (1.0 - c * c) / (eta * eta);
+    let t = sqrt(max(0.0, 1.0 - sin2_t));
+    let p = (eta * c - t) / (eta * c + t);
+    let s = (c - eta * t) / (c + eta * t);
+    return select(0.5 * (p * p + s * s), 1.0, sin2_t >= 1.0);
+}
+
+// Drivers may take asin lightly; their atan2 is good to 1e-5.
+fn arc_sine(x: f32) -> f32 {
+    let s = clamp(x, -1.0, 1.0);
+    return atan2(s, sqrt((1.0 - s) * (1.0 + s)));
+}
+
+// A way across the fibre.
+struct FibreCrossing {
+    gamma_i: f32,
+    gamma_t: f32,
+    // At entry; one value serves all inner bounces.
+    fresnel: f32,
+    // Of one pass, in fibre radii.
+    length: f32,
+}
+
+// 1e-3: at grazing inclination the way is as long as it gets.
+fn fibre_crossing(sin_o: f32, cos_o: f32, h: f32, eta: f32) -> FibreCrossing {
+    let cos_at = max(cos_o, 1e-3);
+    let eta_across = sqrt(eta * eta - sin_o * sin_o) / cos_at;
+    var c: FibreCrossing;
+    c.gamma_i = arc_sine(h);
+    c.gamma_t = arc_sine(h / eta_across);
+    c.fresnel = fresnel_dielectric(cos_at * cos(c.gamma_i), eta);
+    c.length = 2.0 * cos(c.gamma_t) / sqrt(1.0 - sin_o * sin_o / (eta * eta));
+    return c;
+}
+
+// Shares of light that leave after no, one, two and more passes: R, TT, TRT and the rest.
+fn fibre_attenuation(fresnel: f32, transmittance: f32) -> vec4f {
+    let t = transmittance;
+    let tt = (1.0 - fresnel) * (1.0 - fresnel) * t;
+    let trt = tt * t * fresnel;
+    return vec4f(fresnel, tt, trt, trt * t * fresnel / max(1.0 - t * fresnel, 1e-6));
+}
+
+// Angle about the fibre at which light leaves a smooth one after p passes.
+fn fibre_exit(p: f32, gamma_i: f32, gamma_t: f32) -> f32 {
+    return 2.0 * p * gamma_t - 2.0 * gamma_i + p * PI;
+}
+
+fn wrapped_angle(x: f32) -> f32 {
+    return x - 2.0 * PI * round(x / (2.0 * PI));
+}
+
+// Densities round the circle: trimmed logistic of scale s, and wrapped Gaussian of a standard deviation.
+fn trimmed_logistic(x: f32, s: f32) -> f32 {
+    let e = exp(-abs(wrapped_angle(x)) / s);
+    return e / (s * (1.0 + e) * (1.0 + e)) / tanh(PI / (2.0 * s));
+}
+
+fn wrapped_gaussian(x: f32, deviation: f32) -> f32 {
+    var sum = 0.0;
+    for (var k = -3; k <= 3; k++) {
+        let z = (wrapped_angle(x) - 2.0 * PI * f32(k)) / deviation;
+        sum += exp(-0.5 * z * z);
+    }
+    return sum / (sqrt(2.0 * PI) * deviation);
+}
+
+// What roughens the azimuth: its width in radians, and which density.
+struct Detector {
+    width: f32,
+    is_gaussian: bool,
+}
+
+fn detected(x: f32, d: Detector) -> f32 {
+    if d.is_gaussian {
+        return wrapped_gaussian(x, d.width);
+    }
+    return trimmed_logistic(x, d.width);
+}
+
+// Azimuthal scattering of a whole fibre, 1/rad: R, TT, TRT, and the rest, which leaves everywhere alike. h = sin g removes the
+// square roots at its ends, so that evenly spread nodes do.
+fn fibre_azimuthal(phi: f32, sin_o: f32, cos_o: f32, eta: f32, absorption: f32, d: Detector, nodes: u32) -> vec4f {
+    var sum = vec4f(0.0);
+    for (var i = 0u; i < nodes; i++) {
+        let g = ((f32(i) + 0.5) / f32(nodes) - 0.5) * PI;
+        let c = fibre_crossing(sin_o, cos_o, sin(g), eta);
+        let a = fibre_attenuation(c.fresnel, exp(-absorption * c.length));
+        let n = vec4f(
+            detected(phi - fibre_exit(0.0, c.gamma_i, c.gamma_t), d),
+            detected(phi - fibre_exit(1.0, c.gamma_i, c.gamma_t), d),
+            detected(phi - fibre_exit(2.0, c.gamma_i, c.gamma_t), d),
+            1.0 / (2.0 * PI),
+        );
+        sum += a * n * cos(g);
+    }
+    return sum * (0.5 * PI / f32(nodes));
+}
+
+// Absorption that gives much hair a colour (Chiang et al. 2016); `scale` is their polynomial in the azimuthal roughness.
+fn fibre_absorption(color: vec3f, scale: f32) -> vec3f {
+    let a = log(clamp(color, vec3f(1e-3), vec3f(0.999))) / scale;
+    return a * a;
+}
