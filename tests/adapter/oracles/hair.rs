@@ -13,6 +13,11 @@ fn none(_: &Value) -> Vec<f32> {
     Vec::new()
 }
 
+/// Sines and cosines of angles: drivers take those lightly, and shading has them from vectors.
+fn directions(case: &Value, angles: &[&str]) -> Vec<f32> {
+    numbers(case, angles).into_iter().flat_map(|a| [f64::from(a).sin() as f32, f64::from(a).cos() as f32]).collect()
+}
+
 #[test]
 fn strand_highlights_follow_their_vectors() {
     let file = vectors("hair_kajiya_kay.json");
@@ -66,16 +71,15 @@ fn highlights_have_the_width_of_their_exponent() {
     }
 }
 
-const LONGITUDINAL: &str = "
-    let v = input[base]; let i = input[base + 1u]; let o = input[base + 2u];
-    let m = fibre_longitudinal(v, sin(i), cos(i), sin(o), cos(o));";
-
 #[test]
 fn longitudinal_scattering_follows_its_vectors() {
     let file = vectors("hair_mp.json");
     let list = cases(&file, "cases");
-    let rows = rows(list, none, &["v", "theta_i", "theta_r"]);
-    let found = run(&["fibre"], &format!("{LONGITUDINAL} output[out] = m;"), &rows, 1);
+    let rows = rows(list, |c| directions(c, &["theta_i", "theta_r"]), &["v"]);
+    let body = "
+        output[out] =
+            fibre_longitudinal(input[base + 4u], input[base], input[base + 1u], input[base + 2u], input[base + 3u]);";
+    let found = run(&["fibre"], body, &rows, 1);
     for (i, (case, found)) in list.iter().zip(&found).enumerate() {
         let expected = numbers(case, &["M"])[0];
         assert!(found[0].is_finite(), "case {i}");
@@ -90,16 +94,17 @@ fn longitudinal_scattering_conserves_energy() {
     for beta in [0.05f32, 0.1, 0.3, 0.5, 0.7, 0.9, 1.0] {
         let v = (0.726 * beta + 0.812 * beta * beta + 3.7 * beta.powi(20)).powi(2);
         for degrees in [-85.0f32, -60.0, -30.0, 0.0, 15.0, 45.0, 75.0, 85.0] {
-            rows.push(vec![v, degrees.to_radians()]);
+            rows.push(vec![v, degrees.to_radians().sin(), degrees.to_radians().cos()]);
         }
     }
     let body = "
         var sum = 0.0;
         for (var k = 0; k < 8192; k++) {
-            let o = ((f32(k) + 0.5) / 8192.0 - 0.5) * PI;
-            sum += fibre_longitudinal(input[base], sin(input[base + 1u]), cos(input[base + 1u]), sin(o), cos(o)) * cos(o);
+            // Even steps of the sine: the cosine of the measure is in them.
+            let o = (f32(k) + 0.5) / 4096.0 - 1.0;
+            sum += fibre_longitudinal(input[base], input[base + 1u], input[base + 2u], o, sqrt(1.0 - o * o));
         }
-        output[out] = sum * PI / 8192.0;";
+        output[out] = sum / 4096.0;";
     for (row, found) in rows.iter().zip(run(&["fibre"], body, &rows, 1)) {
         assert!((found[0] - 1.0).abs() <= 1e-3, "{row:?}: {}", found[0]);
     }
@@ -109,12 +114,12 @@ fn longitudinal_scattering_conserves_energy() {
 fn attenuation_follows_its_vectors() {
     let file = vectors("hair_attenuation.json");
     let list = cases(&file, "cases");
-    let rows = rows(list, none, &["theta", "h", "eta", "sigma_a"]);
+    let rows = rows(list, |c| directions(c, &["theta"]), &["h", "eta", "sigma_a"]);
     let body = "
-        let c = fibre_crossing(sin(input[base]), cos(input[base]), input[base + 1u], input[base + 2u]);
+        let c = fibre_crossing(input[base], input[base + 1u], input[base + 2u], input[base + 3u]);
         output[out] = c.gamma_i; output[out + 1u] = c.gamma_t; output[out + 2u] = c.fresnel; output[out + 3u] = c.length;
         for (var k = 0u; k < 3u; k++) {
-            let a = fibre_attenuation(c.fresnel, exp(-input[base + 3u + k] * c.length));
+            let a = fibre_attenuation(c.fresnel, exp(-input[base + 4u + k] * c.length));
             output[out + 4u + k] = a.x; output[out + 7u + k] = a.y;
             output[out + 10u + k] = a.z; output[out + 13u + k] = a.w;
         }";
@@ -130,12 +135,12 @@ fn attenuation_follows_its_vectors() {
 fn azimuthal_scattering_follows_its_vectors() {
     let file = vectors("hair_azimuthal.json");
     let list = cases(&file, "near_field");
-    let near = rows(list, none, &["p", "theta", "h", "eta", "s", "phi"]);
+    let near = rows(list, |c| directions(c, &["theta"]), &["p", "h", "eta", "s", "phi"]);
     let body = "
-        let c = fibre_crossing(sin(input[base + 1u]), cos(input[base + 1u]), input[base + 2u], input[base + 3u]);
-        let exit = fibre_exit(input[base], c.gamma_i, c.gamma_t);
+        let c = fibre_crossing(input[base], input[base + 1u], input[base + 3u], input[base + 4u]);
+        let exit = fibre_exit(input[base + 2u], c.gamma_i, c.gamma_t);
         output[out] = exit;
-        output[out + 1u] = trimmed_logistic(input[base + 5u] - exit, input[base + 4u]);";
+        output[out + 1u] = trimmed_logistic(input[base + 6u] - exit, input[base + 5u]);";
     for (i, (case, found)) in list.iter().zip(run(&["fibre"], body, &near, 2)).enumerate() {
         assert_close("exit", i, &found[..1], &numbers(case, &["Phi"]), 1e-4);
         let expected = numbers(case, &["D"])[0];
@@ -143,14 +148,15 @@ fn azimuthal_scattering_follows_its_vectors() {
     }
 
     let list = cases(&file, "far_field");
-    let kind = |c: &Value| vec![f32::from(u8::from(c["kind"] == "gaussian"))];
-    let far = rows(list, kind, &["phi", "theta", "eta", "width", "p", "sigma_a"]);
+    let before = |c: &Value| [directions(c, &["theta"]), vec![f32::from(u8::from(c["kind"] == "gaussian"))]].concat();
+    let far = rows(list, before, &["phi", "eta", "width", "p", "sigma_a"]);
     let body = "
-        let d = Detector(input[base + 4u], input[base] > 0.5);
-        let o = input[base + 2u];
+        let d = Detector(input[base + 5u], input[base + 2u] > 0.5);
         for (var k = 0u; k < 3u; k++) {
-            let n = fibre_azimuthal(input[base + 1u], sin(o), cos(o), input[base + 3u], input[base + 6u + k], d, 128u);
-            output[out + k] = n[u32(input[base + 5u])];
+            let n = fibre_azimuthal(
+                input[base + 3u], input[base], input[base + 1u], input[base + 4u], input[base + 7u + k], d, 128u
+            );
+            output[out + k] = n[u32(input[base + 6u])];
         }";
     let found = run(&["fibre"], body, &far, 3);
     // Against the peak of the same lobe, as a picture would show it.
@@ -166,14 +172,14 @@ fn azimuthal_scattering_follows_its_vectors() {
 fn azimuthal_scattering_has_the_limit_of_a_smooth_fibre() {
     let file = vectors("hair_azimuthal.json");
     let list = cases(&file, "smooth");
-    let rows = rows(list, none, &["phi", "theta", "eta", "p", "sigma_a"]);
+    let rows = rows(list, |c| directions(c, &["theta"]), &["phi", "eta", "p", "sigma_a"]);
     let body = "
-        let o = input[base + 1u];
         for (var k = 0u; k < 3u; k++) {
             let n = fibre_azimuthal(
-                input[base], sin(o), cos(o), input[base + 2u], input[base + 4u + k], Detector(0.01, true), 4096u
+                input[base + 2u], input[base], input[base + 1u], input[base + 3u], input[base + 5u + k],
+                Detector(0.01, true), 4096u
             );
-            output[out + k] = n[u32(input[base + 3u])];
+            output[out + k] = n[u32(input[base + 4u])];
         }";
     for (i, (case, found)) in list.iter().zip(run(&["fibre"], body, &rows, 3)).enumerate() {
         let expected = numbers(case, &["N"]);
@@ -189,24 +195,27 @@ fn the_whole_fibre_follows_its_vectors() {
     let rough = |c: &Value| {
         let [m, n] = numbers(c, &["beta_m", "beta_n"])[..] else { panic!("two") };
         let v = (0.726 * m + 0.812 * m * m + 3.7 * m.powi(20)).powi(2);
-        vec![v, 0.626_657_07 * (0.265 * n + 1.194 * n * n + 5.372 * n.powi(22))]
+        let mut row = vec![v, 0.626_657_07 * (0.265 * n + 1.194 * n * n + 5.372 * n.powi(22))];
+        row.extend(directions(c, &["theta_o", "theta_i"]));
+        let alpha = numbers(c, &["alpha"])[0];
+        row.extend([-2.0, 1.0, 4.0].into_iter().flat_map(|tilt| [(tilt * alpha).sin(), (tilt * alpha).cos()]));
+        row
     };
-    let rows = rows(list, rough, &["theta_o", "theta_i", "phi", "h", "eta", "alpha", "sigma_a"]);
+    let rows = rows(list, rough, &["phi", "h", "eta", "sigma_a"]);
     let body = "
-        let v = input[base]; let s = input[base + 1u]; let o = input[base + 2u]; let i = input[base + 3u];
-        let c = fibre_crossing(sin(o), cos(o), input[base + 5u], input[base + 6u]);
-        let alpha = input[base + 7u];
-        let tilts = vec3f(-2.0, 1.0, 4.0) * alpha;
+        let v = input[base]; let s = input[base + 1u];
+        let o = vec2f(input[base + 2u], input[base + 3u]); let i = vec2f(input[base + 4u], input[base + 5u]);
+        let c = fibre_crossing(o.x, o.y, input[base + 13u], input[base + 14u]);
         let variances = vec4f(v, 0.25 * v, 4.0 * v, 4.0 * v);
         var m = vec4f(0.0);
-        for (var p = 0; p < 3; p++) {
-            let to = fibre_tilted(sin(o), cos(o), vec2f(sin(tilts[p]), cos(tilts[p])));
-            m[p] = fibre_longitudinal(variances[p], sin(i), cos(i), to.x, to.y)
-                * trimmed_logistic(input[base + 4u] - fibre_exit(f32(p), c.gamma_i, c.gamma_t), s);
+        for (var p = 0u; p < 3u; p++) {
+            let to = fibre_tilted(o.x, o.y, vec2f(input[base + 6u + 2u * p], input[base + 7u + 2u * p]));
+            m[p] = fibre_longitudinal(variances[p], i.x, i.y, to.x, to.y)
+                * trimmed_logistic(input[base + 12u] - fibre_exit(f32(p), c.gamma_i, c.gamma_t), s);
         }
-        m.w = fibre_longitudinal(variances.w, sin(i), cos(i), sin(o), cos(o)) / (2.0 * PI);
+        m.w = fibre_longitudinal(variances.w, i.x, i.y, o.x, o.y) / (2.0 * PI);
         for (var k = 0u; k < 3u; k++) {
-            output[out + k] = dot(m, fibre_attenuation(c.fresnel, exp(-input[base + 8u + k] * c.length)));
+            output[out + k] = dot(m, fibre_attenuation(c.fresnel, exp(-input[base + 15u + k] * c.length)));
         }";
     for (i, (case, found)) in list.iter().zip(run(&["fibre"], body, &rows, 3)).enumerate() {
         for (found, expected) in found.iter().zip(numbers(case, &["S"])) {
@@ -226,7 +235,8 @@ fn a_white_fibre_in_a_furnace_vanishes() {
                 rows.push(vec![
                     (0.726 * m + 0.812 * m * m + 3.7 * m.powi(20)).powi(2),
                     0.626_657_07 * (0.265 * n + 1.194 * n * n + 5.372 * n.powi(22)),
-                    degrees.to_radians(),
+                    degrees.to_radians().sin(),
+                    degrees.to_radians().cos(),
                 ]);
             }
         }
@@ -234,20 +244,21 @@ fn a_white_fibre_in_a_furnace_vanishes() {
     // Along: each lobe over all inclinations of the light. About: each lobe of a whole fibre over all angles. Mesa ends loops after
     // 65536 rounds in all.
     let body = "
-        let v = input[base]; let d = Detector(input[base + 1u], false); let o = input[base + 2u];
-        let tilts = vec4f(-2.0, 1.0, 4.0, 0.0) * 0.0349;
+        let v = input[base]; let d = Detector(input[base + 1u], false); let o = vec2f(input[base + 2u], input[base + 3u]);
+        // Of two degrees.
+        let tilts = array(vec2f(-0.06976, 0.99756), vec2f(0.0349, 0.99939), vec2f(0.13917, 0.99027), vec2f(0.0, 1.0));
         let variances = vec4f(v, 0.25 * v, 4.0 * v, 4.0 * v);
         var along = vec4f(0.0);
         for (var k = 0; k < 2048; k++) {
-            let i = ((f32(k) + 0.5) / 2048.0 - 0.5) * PI;
+            let i = (f32(k) + 0.5) / 1024.0 - 1.0;
             for (var p = 0; p < 4; p++) {
-                let to = fibre_tilted(sin(o), cos(o), vec2f(sin(tilts[p]), cos(tilts[p])));
-                along[p] += fibre_longitudinal(variances[p], sin(i), cos(i), to.x, to.y) * cos(i) * PI / 2048.0;
+                let to = fibre_tilted(o.x, o.y, tilts[p]);
+                along[p] += fibre_longitudinal(variances[p], i, sqrt(1.0 - i * i), to.x, to.y) / 1024.0;
             }
         }
         var about = vec4f(0.0);
         for (var k = 0; k < 256; k++) {
-            about += fibre_azimuthal((f32(k) + 0.5) / 256.0 * 2.0 * PI, sin(o), cos(o), 1.55, 0.0, d, 128u) * 2.0 * PI / 256.0;
+            about += fibre_azimuthal((f32(k) + 0.5) / 256.0 * 2.0 * PI, o.x, o.y, 1.55, 0.0, d, 128u) * 2.0 * PI / 256.0;
         }
         output[out] = dot(along, about);";
     for (row, found) in rows.iter().zip(run(&["fibre"], body, &rows, 1)) {
