@@ -244,7 +244,7 @@ fn rgba8(decoder: impl ImageDecoder) -> image::ImageResult<Decoded> {
 }
 
 /// Runs a decoder; a panic inside it becomes an error.
-fn guarded<T>(decode: impl FnOnce() -> image::ImageResult<T>) -> std::result::Result<T, String> {
+pub(super) fn guarded<T>(decode: impl FnOnce() -> image::ImageResult<T>) -> std::result::Result<T, String> {
     match catch_unwind(AssertUnwindSafe(decode)) {
         Ok(result) => result.map_err(|e| e.to_string()),
         Err(_) => Err("the decoder failed on corrupt data".into()),

@@ -33,6 +33,7 @@ mod mtoon0;
 mod normals;
 mod pbr;
 mod primitive;
+mod radiance;
 mod role;
 mod skin;
 mod spring;
@@ -49,6 +50,7 @@ use crate::material::{Material, Origin};
 use crate::scene::{Character, Mesh, Node, Scene, Source};
 
 pub use fault::Limits;
+pub use radiance::load_radiance;
 use fault::{Fault, quoted};
 use json::Json;
 use warnings::Warnings;

@@ -462,6 +462,7 @@ fn lights(section: &LightSection) -> Lights {
             intensity: section.intensity,
         },
         ambient: Ambient::uniform(LinearRgb(section.ambient)),
+        environment: None,
         punctual: Vec::new(),
         coolness: section.coolness,
     }

@@ -4,9 +4,11 @@ use wgpu::BindingResource;
 
 use super::blended::BlendedList;
 use super::character::Shown as Drawables;
+use super::environment::{EnvironmentMap, Environments};
 use super::draw_list::Actors;
 use super::layout::Filled;
 use super::numbers::put_view;
+use super::pass::background::BackgroundInputs;
 use super::pass::bangs_shadow::{self, BangsShadowInputs};
 use super::pass::bloom::{BloomChain, BloomInputs, BloomPass};
 use super::pass::floor::FloorPass;
@@ -33,6 +35,9 @@ pub(super) struct Frame {
     blended: BlendedList,
     numbers: Filled,
     uniform: wgpu::Buffer,
+    environments: Environments,
+    /// That of the stage that is drawn.
+    environment: EnvironmentMap,
     /// Group 0 without what a prepass draws.
     group: wgpu::BindGroup,
     // What few pictures need is made when one does.
@@ -97,10 +102,15 @@ impl Frame {
     pub fn new(gpu: &Gpu, layouts: &Layouts, numbers: Filled) -> Self {
         let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
         let uniform = bind::buffer(gpu, "frame", numbers.size(), usage);
+        let environments = Environments::new(gpu);
+        let environment = environments.none();
+        let shared = (&uniform, &environments, &environment);
         Self {
             uploads: Uploads::new(gpu),
             blended: BlendedList::new(gpu),
-            group: frame_group(gpu, layouts, &uniform, &PrepassTargets::new(gpu, [1, 1], false)),
+            group: frame_group(gpu, layouts, shared, &PrepassTargets::new(gpu, [1, 1], false)),
+            environments,
+            environment,
             numbers,
             uniform,
             bloom: None,
@@ -123,6 +133,7 @@ impl Frame {
     ) -> Result<()> {
         stage.embody(r)?;
         let gpu = r.gpu().clone();
+        self.fit_environment(r, stage)?;
         // Maps are drawn from lights: of the frame they read the time alone.
         self.send_view(encoder, stage, &View::default());
         let to_light = stage.lights.directional.to_light;
@@ -172,6 +183,14 @@ impl Frame {
         pipelines: &[Drawables],
     ) -> Result<()> {
         let frame = self.color_frame_group(stage, take.post);
+        // What is behind everything.
+        if let (Shown::Picture, Background::Environment, Some(_), false) =
+            (take.shown, take.view.background, &stage.lights.environment, take.target.keeps_color)
+        {
+            let map = &self.environment;
+            let inputs = BackgroundInputs { variants: &r.variants, picture: &take.picture, map, frame };
+            r.background().encode(pass, &inputs)?;
+        }
         let Some(actors) = actors(stage, frame, take.view.first_person) else { return Ok(()) };
         if let Shown::Floor(floor) = take.shown {
             floor.encode(pass, &actors);
@@ -220,6 +239,7 @@ impl Frame {
             return Err(Error::Argument { what: "first_person".to_owned(), message });
         }
         let gpu = r.gpu().clone();
+        self.fit_environment(r, stage)?;
         self.send_view(encoder, stage, view);
         if let Some(crowd) = &stage.bodies.crowd {
             self.blended.arrange(&stage.bodies, crowd, view.camera.eye);
@@ -236,10 +256,30 @@ impl Frame {
         let fits = |t: &PrepassTargets| t.size == view.size && (t.has_surfaces || !has_surfaces);
         if has_prepass(stage, *post) && !self.prepass_targets.as_ref().is_some_and(|(t, _)| fits(t)) {
             let targets = PrepassTargets::new(&gpu, view.size, has_surfaces);
-            let group = frame_group(&gpu, &r.layouts, &self.uniform, &targets);
+            let group = frame_group(&gpu, &r.layouts, self.shared(), &targets);
             self.prepass_targets = Some((targets, group));
         }
         stage.bodies.troupes.iter().map(|troupe| troupe.data().shown(&r.variants, picture)).collect()
+    }
+
+    /// Takes the environment of a stage, where it is another than that of the last one.
+    fn fit_environment(&mut self, r: &Renderer, stage: &Stage) -> Result<()> {
+        let map = self.environments.of(&r.variants, stage.lights.environment.as_ref())?;
+        if map.cube != self.environment.cube {
+            self.environment = map;
+            let gpu = r.gpu();
+            self.group = frame_group(gpu, &r.layouts, self.shared(), &PrepassTargets::new(gpu, [1, 1], false));
+            if let Some((targets, _)) = self.prepass_targets.take() {
+                let group = frame_group(gpu, &r.layouts, self.shared(), &targets);
+                self.prepass_targets = Some((targets, group));
+            }
+        }
+        Ok(())
+    }
+
+    /// What group 0 holds beside what a prepass draws.
+    fn shared(&self) -> (&wgpu::Buffer, &Environments, &EnvironmentMap) {
+        (&self.uniform, &self.environments, &self.environment)
     }
 
     fn encode_deform(&self, r: &Renderer, encoder: &mut wgpu::CommandEncoder, bodies: &mut Bodies, clock: &Clock) {
@@ -492,7 +532,19 @@ struct PostTargets {
     group: wgpu::BindGroup,
 }
 
-fn frame_group(gpu: &Gpu, layouts: &Layouts, uniform: &wgpu::Buffer, read: &PrepassTargets) -> wgpu::BindGroup {
-    let read = [&read.depth_view, &read.surfaces_view].map(BindingResource::TextureView);
-    bind::group(gpu, "frame", &layouts.frame, std::iter::once(uniform.as_entire_binding()).chain(read))
+fn frame_group(
+    gpu: &Gpu,
+    layouts: &Layouts,
+    (uniform, environments, environment): (&wgpu::Buffer, &Environments, &EnvironmentMap),
+    read: &PrepassTargets,
+) -> wgpu::BindGroup {
+    let resources = [
+        uniform.as_entire_binding(),
+        BindingResource::TextureView(&read.depth_view),
+        BindingResource::TextureView(&read.surfaces_view),
+        BindingResource::TextureView(&environment.cube),
+        BindingResource::Sampler(&environments.sampler),
+        environments.split_sum.as_entire_binding(),
+    ];
+    bind::group(gpu, "frame", &layouts.frame, resources)
 }

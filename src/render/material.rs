@@ -7,8 +7,8 @@ use super::shaders::{Bound, Places, Recipe, Shaders};
 use crate::material::{About, AlphaMode, Kind, Leaf, Options, Read, Surroundings, TextureRef, UvTransform, Walk};
 use crate::{Error, Result};
 
-/// Textures that WebGPU promises to one shader stage; 2 are read of the picture and 3 of the character at most.
-const MAX_TEXTURES: usize = 16 - 5;
+/// Textures that WebGPU promises to one shader stage; 3 are read of the frame and 3 of the character at most.
+const MAX_TEXTURES: usize = 16 - 6;
 
 /// A texture that a material binds.
 #[derive(Clone, Debug)]

@@ -6,6 +6,7 @@ mod character;
 pub(crate) mod check_section;
 mod check_wgsl;
 mod clock;
+pub(crate) mod environment;
 pub(crate) mod draw_list;
 mod frame;
 pub(crate) mod geometry;
@@ -47,6 +48,7 @@ use crate::{Error, Gpu, Result, Stage};
 use frame::{Frame, Take};
 use made::lock;
 use numbers::frame_numbers;
+use pass::background::BackgroundPass;
 use pass::bangs_near::BangsNearPass;
 use pass::deform::DeformPass;
 use pass::floor::FloorPass;
@@ -114,6 +116,7 @@ pub struct Renderer {
     // Made when a stage needs it.
     bangs_near: OnceLock<BangsNearPass>,
     ground: OnceLock<GroundPass>,
+    background: OnceLock<BackgroundPass>,
     empty_maps: EmptyMaps,
     frame: Mutex<Frame>,
 }
@@ -170,6 +173,7 @@ impl Renderer {
                 layouts,
                 bangs_near: OnceLock::new(),
                 ground: OnceLock::new(),
+                background: OnceLock::new(),
                 empty_maps: EmptyMaps::new(gpu),
             })
         })?
@@ -191,6 +195,11 @@ impl Renderer {
     /// What draws grounds.
     pub(crate) fn ground(&self) -> &GroundPass {
         self.ground.get_or_init(|| GroundPass::new(self.gpu(), &self.layouts.frame))
+    }
+
+    /// What draws environments behind everything.
+    pub(crate) fn background(&self) -> &BackgroundPass {
+        self.background.get_or_init(|| BackgroundPass::new(self.gpu(), &self.layouts.frame))
     }
 
     /// What draws a character as the floor of benches.
@@ -293,6 +302,9 @@ impl Layouts {
             (both, bind::uniform(Some(frame_bytes))),
             read(bind::texture(T::Depth, D::D2)),
             read(bind::texture(T::Uint, D::D2)),
+            read(bind::filtered(D::Cube)),
+            read(Sampler(SamplerBindingType::Filtering)),
+            read(bind::uniform(None)),
         ];
         let numbers = bind::texture(T::Float { filterable: false }, D::D2Array);
         let character = [

@@ -3,6 +3,7 @@
 use glam::{Mat4, Vec3, Vec4};
 
 use super::layout::{Block, Filled};
+use super::environment::LEVELS;
 use super::pass::bangs_shadow::{BangsFit, BangsTile};
 use super::pass::shadow::ShadowRows;
 use super::{Background, View};
@@ -41,14 +42,22 @@ pub(crate) fn put_view(gpu: &mut Block<'_>, view: &View, stage: &Stage) {
     gpu.put("aspect", aspect);
     gpu.put("light_color", directional.color.scaled(directional.intensity).0);
     gpu.put("punctual_count", lights.punctual.len().min(MAX_PUNCTUAL_LIGHTS) as u32);
-    gpu.put("ambient_sky", lights.ambient.sky.0);
+    let ambient = lights.hemisphere();
+    gpu.put("ambient_sky", ambient.sky.0);
     gpu.put("near", camera.near);
-    gpu.put("ambient_ground", lights.ambient.ground.0);
+    gpu.put("ambient_ground", ambient.ground.0);
     gpu.put("coolness", lights.coolness());
     let DepthRange { a, b } = DepthRange::of(camera);
     gpu.put("host_depth", [a, b / camera.near]);
     gpu.put("px_per_m", view.px_per_m(stage.places()));
     gpu.put("punctual", punctual);
+    let environment = lights.environment.as_ref();
+    let (strength, turn_rad) = environment.map_or((1.0, 0.0), |e| (e.strength, e.turn_rad));
+    let irradiance = environment.map_or([[0.0; 3]; 9], |e| *e.radiance.irradiance());
+    gpu.put("irradiance", irradiance.map(|[r, g, b]| [r * strength, g * strength, b * strength, 0.0]));
+    gpu.put("environment_turn", [turn_rad.cos(), turn_rad.sin()]);
+    gpu.put("environment_strength", strength);
+    gpu.put("environment_level", environment.map_or(-1.0, |_| (LEVELS - 1) as f32));
 }
 
 /// A `PunctualLight`: three rows of a vector and a number.
@@ -138,7 +147,8 @@ pub(crate) fn put_actor(gpu: &mut Block<'_>, of: &ActorState<'_>) {
 /// Writes the numbers of a finished picture.
 pub(crate) fn put_post(gpu: &mut Block<'_>, post: Post, background: Background) {
     let background = match background {
-        Background::Transparent => [0.0; 4],
+        // The environment is in the picture already.
+        Background::Transparent | Background::Environment => [0.0; 4],
         Background::Color(srgb) => {
             let [r, g, b] = srgb.to_linear().0;
             [r, g, b, 1.0]

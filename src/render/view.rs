@@ -47,6 +47,9 @@ pub enum Background {
     Transparent,
     /// A colour.
     Color(Srgb),
+    /// The stage's environment ([`Lights::environment`](crate::scene::Lights::environment)), as bright as it lights; exposure
+    /// and tone curve change it with the actors. Nothing where the stage has none.
+    Environment,
 }
 
 impl Background {

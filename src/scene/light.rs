@@ -2,6 +2,7 @@
 
 use glam::Vec3;
 
+use super::Environment;
 use crate::color::LinearRgb;
 use crate::{Error, Result};
 
@@ -15,6 +16,8 @@ pub struct Lights {
     pub directional: DirectionalLight,
     /// Light from everywhere.
     pub ambient: Ambient,
+    /// A picture of the light from everywhere, in the place of `ambient`. Default: `None`.
+    pub environment: Option<Environment>,
     /// Point and spot lights; at most [`MAX_PUNCTUAL_LIGHTS`].
     ///
     /// Each cuts a band of its own, adds the lit colour where it shines and casts no shadow; on its far side it shows the shade
@@ -34,6 +37,18 @@ impl Lights {
         self.coolness.unwrap_or(by_color).clamp(0.0, 1.0)
     }
 
+    /// Light from above and from below: `ambient`, or what the environment sheds there.
+    pub(crate) fn hemisphere(&self) -> Ambient {
+        let Some(of) = &self.environment else { return self.ambient };
+        let [sky, ground] = [1.0, -1.0].map(|y: f32| {
+            let [constant, linear, .., squares, _, differences] = of.radiance.irradiance();
+            // At the poles 3z² - 1 and x² - y² are -1.
+            let at = |c: usize| constant[c] + linear[c] * y - squares[c] - differences[c];
+            LinearRgb(std::array::from_fn(|c| at(c).max(0.0) * of.strength))
+        });
+        Ambient { sky, ground }
+    }
+
     /// Refuses lights that have no direction, or numbers that are none.
     pub(crate) fn check(&self) -> Result<()> {
         let fault = |what: String, message: &str| Err(Error::Argument { what, message: message.to_owned() });
@@ -46,6 +61,7 @@ impl Lights {
         if !is_light(&directional.color, directional.intensity) || !ambient.iter().all(|c| is_light(c, 1.0)) {
             return fault("lights".to_owned(), "a colour or a strength is not finite");
         }
+        self.environment.as_ref().map_or(Ok(()), Environment::check)?;
         for (i, light) in self.punctual.iter().enumerate() {
             let spot = light.spot.is_none_or(|s| s.direction.try_normalize().is_some() && s.outer_rad > 0.0);
             if !(light.position.is_finite()

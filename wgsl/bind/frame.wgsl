@@ -36,6 +36,17 @@ struct Frame {
     // Depth of a host is x + y * near / distance.
     host_depth: vec2f,
     punctual: array<PunctualLight, 4>,
+    // Irradiance over pi as harmonics: factors of 1, y, z, x, xy, yz, 3z²-1, xz, x²-y²; strength included.
+    irradiance: array<vec4f, 9>,
+    // Cosine and sine of the turn of the environment, its strength, and its last level; below 0 there is none.
+    environment_turn: vec2f,
+    environment_strength: f32,
+    environment_level: f32,
+}
+
+// Scale and bias of the reflectance at normal incidence for light from all around, two places in each; see SPLIT_SUM_SIDE.
+struct SplitSum {
+    table: array<vec4f, 512>,
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;
@@ -59,6 +70,11 @@ fn distance_at(pixel: vec2i) -> f32 {
     let last = vec2i(textureDimensions(frame_depth)) - 1;
     return frame.near / max(textureLoad(frame_depth, clamp(pixel, vec2i(0), last), 0), 1e-12);
 }
+
+// Radiance of the environment, rougher from level to level; what surfaces of roughness 1 mirror is in the last one.
+@group(0) @binding(3) var environment_map: texture_cube<f32>;
+@group(0) @binding(4) var environment_sampler: sampler;
+@group(0) @binding(5) var<uniform> split_sum: SplitSum;
 
 // Normal and part of the nearest surface of each pixel, one sample a pixel; only where a material has inner lines.
 @group(0) @binding(2) var frame_surfaces: texture_2d<u32>;

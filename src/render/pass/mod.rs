@@ -1,5 +1,6 @@
 //! Passes: one file each, with the shader of the same stem in `wgsl/pass/`; what they share stands here.
 
+pub(crate) mod background;
 pub(crate) mod bangs_near;
 pub(crate) mod bangs_shadow;
 pub(crate) mod bloom;

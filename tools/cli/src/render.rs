@@ -302,6 +302,7 @@ fn options_report<'a>(args: &'a Args, view: &View, stage: &Stage) -> OptionsRepo
         channel: args.channel.name(),
         time_s: stage.time_s,
         background: match &view.background {
+            Background::Environment => "environment".to_owned(),
             Background::Color(hikage::color::Srgb([r, g, b])) => format!("#{r:02x}{g:02x}{b:02x}"),
             _ => "none".into(),
         },
