@@ -290,7 +290,7 @@ impl LookFile {
     fn change(&self, scene: &mut Scene, material: usize, over: &Table, pointer: &str) -> Result<()> {
         let known: Vec<&str> = ["alpha", "double_sided", "shading"].into_iter().chain(all().map(|a| a.key)).collect();
         if let Some((key, _)) = over.iter().find(|(key, _)| !known.contains(&key.as_str())) {
-            let known = known.iter().copied().filter(|k| *k != "toon");
+            let known = known.iter().copied().filter(|k| !["toon", "standard"].contains(k));
             return Err(self.fault(pointer, no_such("section", key, known)));
         }
         let mut over = over.clone();
@@ -401,7 +401,7 @@ impl LookFile {
     fn textures(&self, scene: &mut Scene, sections: &mut Table, pointer: &str) -> Result<()> {
         for about in all() {
             let section = match about.key {
-                "toon" => sections.get_mut("shading").and_then(|s| s.get_mut("toon")),
+                key @ ("toon" | "standard") => sections.get_mut("shading").and_then(|s| s.get_mut(key)),
                 key => sections.get_mut(key),
             };
             if let Some(Value::Table(section)) = section {

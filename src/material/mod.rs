@@ -7,6 +7,7 @@ mod alpha;
 mod authored;
 mod own;
 pub(crate) mod section;
+mod standard;
 mod texture_ref;
 mod walk;
 
@@ -14,6 +15,7 @@ pub use about::{About, Encoding, Field, Inner, Kind, Preset, Read};
 pub use alpha::{Alpha, AlphaMode};
 pub use authored::{Authored, Substance};
 pub use own::{OwnSection, register};
+pub use standard::Standard;
 pub use section::{Declared, Fields, Options, Section, Surroundings};
 pub use texture_ref::{TextureRef, UvTransform};
 pub use walk::{Leaf, Part, UNBOUNDED, Walk, shown_range};

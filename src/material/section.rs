@@ -107,7 +107,8 @@ pub trait Declared {
 
 /// A section, or the place of one that may be missing.
 pub(crate) trait Held {
-    const ABOUT: &'static About;
+    /// Of the section, or of each that may stand in its place.
+    const ABOUTS: &'static [&'static About];
     fn held(&self) -> Option<&dyn Section>;
     fn held_mut(&mut self) -> Option<&mut dyn Section>;
     /// Takes it away; whether it was there.
@@ -117,7 +118,7 @@ pub(crate) trait Held {
 }
 
 impl<S: Section + Declared> Held for Option<S> {
-    const ABOUT: &'static About = S::ABOUT;
+    const ABOUTS: &'static [&'static About] = &[S::ABOUT];
     fn remove(&mut self) -> bool {
         self.take().is_some()
     }
@@ -130,7 +131,7 @@ impl<S: Section + Declared> Held for Option<S> {
 }
 
 impl<S: Section + Declared> Held for S {
-    const ABOUT: &'static About = S::ABOUT;
+    const ABOUTS: &'static [&'static About] = &[S::ABOUT];
     fn held(&self) -> Option<&dyn Section> {
         Some(self)
     }
@@ -294,6 +295,31 @@ macro_rules! __optional {
     };
 }
 
+/// How many sections stand in lists.
+pub(crate) const fn count(lists: &[&[&About]]) -> usize {
+    let (mut sum, mut i) = (0, 0);
+    while i < lists.len() {
+        sum += lists[i].len();
+        i += 1;
+    }
+    sum
+}
+
+/// Lists of sections as one.
+pub(crate) const fn joined<const N: usize>(lists: &[&[&'static About]]) -> [&'static About; N] {
+    let mut all = [&About::NONE; N];
+    let (mut at, mut i) = (0, 0);
+    while i < lists.len() {
+        let mut j = 0;
+        while j < lists[i].len() {
+            all[at] = lists[i][j];
+            (at, j) = (at + 1, j + 1);
+        }
+        i += 1;
+    }
+    all
+}
+
 /// Makes [`Material`] of the list of its sections.
 macro_rules! sections {
     ($($(#[doc = $doc:expr])* $field:ident : $type:ty $(=> $module:ident)?),+ $(,)?) => {
@@ -320,21 +346,24 @@ macro_rules! sections {
         }
 
         /// Every section of the library.
-        pub(crate) const LISTED: &[&About] = &[$(<$type as Held>::ABOUT),+];
+        pub(crate) const LISTED: &[&About] =
+            &$crate::material::section::joined::<{ $crate::material::section::count(PLACES) }>(PLACES);
+
+        const PLACES: &[&[&About]] = &[$(<$type as Held>::ABOUTS),+];
 
         impl Material {
-            fn listed(&self) -> [Option<&dyn Section>; LISTED.len()] {
+            fn listed(&self) -> [Option<&dyn Section>; PLACES.len()] {
                 [$(self.$field.held()),+]
             }
 
-            fn listed_mut(&mut self) -> ([Option<&mut dyn Section>; LISTED.len()], &mut Vec<OwnSection>) {
+            fn listed_mut(&mut self) -> ([Option<&mut dyn Section>; PLACES.len()], &mut Vec<OwnSection>) {
                 let Self { $($field,)+ own, .. } = self;
                 ([$($field.held_mut()),+], own)
             }
 
             /// Takes a section away; whether it was there. Those that every material has stay.
             pub(crate) fn remove(&mut self, key: &str) -> bool {
-                $(if <$type as Held>::ABOUT.key == key {
+                $(if <$type as Held>::ABOUTS.iter().any(|about| about.key == key) {
                     return Held::remove(&mut self.$field);
                 })+
                 let before = self.own.len();

@@ -1,8 +1,8 @@
-//! How light becomes colour: two tones with a band between them (MToon), or none at all.
+//! How light becomes colour: two tones with a band between them (MToon), as on a physical surface, or not at all.
 
 use serde::{Deserialize, Serialize};
 
-use super::{About, Options, Section, Surroundings, TextureRef, section::Held};
+use super::{About, Options, Section, Standard, Surroundings, TextureRef, section::Held};
 
 /// Shading model.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -10,6 +10,8 @@ use super::{About, Options, Section, Surroundings, TextureRef, section::Held};
 pub enum Shading {
     /// Two tones and a band.
     Toon(Toon),
+    /// A physical surface, metal or not.
+    Standard(Standard),
     /// The base colour, whatever the light.
     Unlit,
 }
@@ -28,11 +30,12 @@ impl Shading {
 }
 
 impl Held for Shading {
-    const ABOUT: &'static About = &Toon::ABOUT;
+    const ABOUTS: &'static [&'static About] = &[&Toon::ABOUT, &Standard::ABOUT];
 
     fn held(&self) -> Option<&dyn Section> {
         match self {
             Self::Toon(toon) => Some(toon),
+            Self::Standard(standard) => Some(standard),
             Self::Unlit => None,
         }
     }
@@ -40,6 +43,7 @@ impl Held for Shading {
     fn held_mut(&mut self) -> Option<&mut dyn Section> {
         match self {
             Self::Toon(toon) => Some(toon),
+            Self::Standard(standard) => Some(standard),
             Self::Unlit => None,
         }
     }

@@ -52,7 +52,7 @@ fn color_of(material: &Material, target: ColorTarget) -> [f32; 4] {
         ColorTarget::EmissionColor => opaque(material.emission.color),
         ColorTarget::ShadeColor => match &material.shading {
             Shading::Toon(toon) => opaque(toon.shade_color),
-            Shading::Unlit => [0.0; 4],
+            Shading::Standard(_) | Shading::Unlit => [0.0; 4],
         },
         ColorTarget::MatcapColor => opaque(material.matcap.map_or([0.0; 3], |m| m.color)),
         ColorTarget::RimColor => opaque(material.rim.color),
@@ -66,7 +66,7 @@ fn add_color(material: &mut Material, target: ColorTarget, shift: [f32; 4]) {
         ColorTarget::EmissionColor => &mut material.emission.color,
         ColorTarget::ShadeColor => match &mut material.shading {
             Shading::Toon(toon) => &mut toon.shade_color,
-            Shading::Unlit => return,
+            Shading::Standard(_) | Shading::Unlit => return,
         },
         ColorTarget::MatcapColor => match &mut material.matcap {
             Some(matcap) => &mut matcap.color,

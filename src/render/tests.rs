@@ -38,8 +38,8 @@ fn material_with(sections: &[&About], is_whole: bool, mode: AlphaMode) -> Materi
         } else {
             needed(about.inner.fields)
         };
-        if about.key == "toon" {
-            let shading = Table::from_iter([("toon".to_owned(), Value::Table(section))]);
+        if ["toon", "standard"].contains(&about.key) {
+            let shading = Table::from_iter([(about.key.to_owned(), Value::Table(section))]);
             table.insert("shading".to_owned(), Value::Table(shading));
         } else {
             table.insert(about.key.to_owned(), Value::Table(section));
@@ -152,7 +152,15 @@ fn all_sections_that_go_together_link_in_every_pass() {
     let shaders = Shaders::new().expect("sections");
     let mut materials = Vec::new();
     // Each model in turn, and each of two that exclude each other.
-    for without in [["gem", "diamond"], ["gem", "shade_ramp"], ["diamond", "fur_detail"], ["gem", "transition"]] {
+    for without in [
+        ["gem", "diamond", "standard"],
+        ["gem", "shade_ramp", "standard"],
+        ["diamond", "fur_detail", "standard"],
+        ["gem", "transition", "standard"],
+        ["gem", "diamond", "toon"],
+        ["gem", "shade_ramp", "toon"],
+        ["diamond", "transition", "toon"],
+    ] {
         let kept: Vec<&About> = LISTED.iter().copied().filter(|a| !without.contains(&a.key)).collect();
         for mode in [AlphaMode::Opaque, AlphaMode::Mask, AlphaMode::Blend] {
             for is_whole in [false, true] {
@@ -171,7 +179,7 @@ fn all_sections_that_go_together_link_in_every_pass() {
 #[test]
 fn passes_without_a_material_are_valid() {
     let shaders = Shaders::new().expect("sections");
-    for pass in ["deform", "bangs_near", "bloom"] {
+    for pass in ["background", "bangs_near", "bloom", "deform", "environment"] {
         validate(&shaders, &Recipe::plain(pass));
     }
     for (encodes, smooths) in [(false, false), (true, false), (false, true), (true, true)] {
@@ -209,7 +217,7 @@ fn every_section_takes_part_in_a_stage_or_has_a_pass() {
 #[test]
 fn what_binds_more_than_a_device_promises_names_its_sections() {
     let shaders = Shaders::new().expect("sections");
-    let all: Vec<&About> = LISTED.to_vec();
+    let all: Vec<&About> = LISTED.iter().copied().filter(|a| a.key != "standard").collect();
     let material = material_with(&all, true, AlphaMode::Opaque);
     let maps = face_maps();
     let error = Composition::new(&shaders, &surroundings(&material, &maps)).check("Everything").expect_err("too many");

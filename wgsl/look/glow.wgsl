@@ -14,7 +14,8 @@ struct Glow {
 // Border of light by the key light alone: highlights fade by it.
 fn glow_border(s: Surface) -> Border {
     var b: Border;
-    b.shading = mtoon_shading(dot(s.normal, frame.to_light), material.toon.shift, material.toon.toony);
+    @if(toon) b.shading = mtoon_shading(dot(s.normal, frame.to_light), material.toon.shift, material.toon.toony);
+    @if(!toon) b.shading = saturate(dot(s.normal, frame.to_light));
     b.own_lit = 1.0;
     @if(cast_shadow) {
         b.own_lit = shadow_lit(s.at.actor, s.at.shadow, b.shading > 0.0);

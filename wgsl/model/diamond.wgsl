@@ -5,12 +5,14 @@ import package::bind::surface::{Shaded, Surface, bitangent};
 import package::lib::diamond::diamond_path;
 import package::lib::gem::fresnel;
 import package::material::material;
+import package::model::standard::physical_light;
 import package::model::toon::{toon_border, toon_light};
 
 fn diamond_model(s: Surface) -> Shaded {
     let m = &material.diamond;
     // What highlights fade by.
-    var l = toon_light(s, toon_border(s));
+    @if(toon) var l = toon_light(s, toon_border(s));
+    @if(!toon) var l = physical_light(s);
     // A shadow takes the key light; scattered light stays.
     let light = l.light * mix(0.3, 1.0, l.own_lit);
     let across = bitangent(s);

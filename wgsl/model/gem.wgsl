@@ -5,12 +5,14 @@ import package::bind::studio::studio_light;
 import package::bind::surface::{Shaded, Surface, bitangent};
 import package::lib::gem::{absorbed, far_normal, fresnel, gathered, parallax};
 import package::material::{gem_inclusions, gem_inclusions_sampler, material};
+import package::model::standard::physical_light;
 import package::model::toon::{toon_border, toon_light};
 
 fn gem_model(s: Surface) -> Shaded {
     let m = &material.gem;
     // What highlights fade by.
-    var l = toon_light(s, toon_border(s));
+    @if(toon) var l = toon_light(s, toon_border(s));
+    @if(!toon) var l = physical_light(s);
     // A shadow takes the key light; scattered light stays.
     let light = l.light * mix(0.3, 1.0, l.own_lit);
     let r = refract(-s.view, s.normal, 1.0 / m.ior);

@@ -24,7 +24,7 @@ fn close(a: &[f32], b: &[f32], tolerance: f32) -> bool {
 fn toon(scene: &Scene, material: usize) -> Toon {
     match scene.materials[material].shading {
         Shading::Toon(toon) => toon,
-        Shading::Unlit => panic!("unlit"),
+        Shading::Standard(_) | Shading::Unlit => panic!("not toon"),
     }
 }
 
