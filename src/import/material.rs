@@ -58,7 +58,7 @@ fn read(json: &Json, vrm0: Option<&Properties>, textures: &mut Textures, warning
         material.emission = Emission::default();
         material.normal_map = None;
     } else {
-        pbr::apply(json, &mut material)?;
+        pbr::apply(json, &mut material, textures, warnings)?;
     }
     Ok(material)
 }

@@ -2,9 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{MAX_PARTS, Read, TextureRef};
+use super::{MAX_PARTS, Read, Standard, TextureRef};
 
-/// Textures that glTF and MToon have no place for.
+/// Textures that glTF and MToon have no place for, and what a toon material does not show.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Authored {
@@ -28,6 +28,8 @@ pub struct Authored {
     pub inclusions: Option<TextureRef>,
     /// Shape of fire (`heat`). Default: none.
     pub heat: Option<TextureRef>,
+    /// The physical surface of a metallic-roughness material. Default: none.
+    pub surface: Option<Standard>,
     /// What the material is (`substance`). Default: none.
     pub substance: Option<Substance>,
 }
@@ -45,6 +47,7 @@ impl Default for Authored {
             highlight_shape: None,
             inclusions: None,
             heat: None,
+            surface: None,
             substance: None,
         }
     }
@@ -53,8 +56,9 @@ impl Default for Authored {
 impl Authored {
     /// Visits every texture: its name in the file, how it is read, value.
     pub(crate) fn each_texture(&mut self, visit: &mut dyn FnMut(&'static str, Read, &mut TextureRef)) {
-        let Self { highlight, face_paint, detail_normal, ramps, part_ids, highlight_shape, inclusions, heat, .. } =
-            self;
+        let Self {
+            highlight, face_paint, detail_normal, ramps, part_ids, highlight_shape, inclusions, heat, surface, ..
+        } = self;
         for (name, read, texture) in [
             ("highlight", Read::LINEAR, highlight),
             ("facePaint", Read::LINEAR, face_paint),
@@ -66,6 +70,13 @@ impl Authored {
         ] {
             if let Some(texture) = texture {
                 visit(name, read, texture);
+            }
+        }
+        if let Some(surface) = surface {
+            for (name, texture) in [("metallicRoughness", &mut surface.map), ("occlusion", &mut surface.occlusion)] {
+                if let Some(texture) = texture {
+                    visit(name, Read::LINEAR, texture);
+                }
             }
         }
         if let Some([warm, cool]) = ramps {

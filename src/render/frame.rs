@@ -93,7 +93,7 @@ impl<'a> Shown<'a> {
     /// What is done to the whole of it: what is laid over something goes the same way.
     fn post(self, stage: &Stage, target: &Target<'_>, output: Output) -> Option<Post> {
         let post = stage.post.filter(|_| matches!(self, Self::Picture));
-        let plain = Post { bloom: None, tone: ToneCurve::None, antialias: false };
+        let plain = Post { bloom: None, exposure_ev: 0.0, tone: ToneCurve::None, antialias: false };
         post.or_else(|| target.is_laid_over(output).then_some(plain))
     }
 }

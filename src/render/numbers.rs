@@ -161,5 +161,6 @@ pub(crate) fn put_post(gpu: &mut Block<'_>, post: Post, background: Background) 
     };
     gpu.put("background", background);
     gpu.put("bloom", post.bloom.map_or(0.0, |b| b.strength));
+    gpu.put("exposure", post.exposure_ev.exp2());
     gpu.put("tone", tone);
 }

@@ -3,12 +3,15 @@
 use crate::material::plain_parts;
 
 crate::part! {
-    /// Bloom, tone curve and antialiasing. The picture is drawn in half floats then, and the background is laid behind it last,
+    /// Bloom, exposure, tone curve and antialiasing. The picture is drawn in half floats then, and the background is laid behind it last,
     /// so that it keeps its colour, or stays transparent.
     #[derive(Copy)]
     Post {
         /// Light that spreads.
         bloom: Option<Bloom> = None, part Bloom;
+        /// Exposure, stops: each doubles the light of the picture before the tone curve; the background of a view keeps its
+        /// colour.
+        exposure_ev: f32 = 0.0, in -16.0..=16.0;
         /// What becomes of light that is brighter than white.
         tone: ToneCurve = ToneCurve::None;
         /// Smooths edges in the finished picture where it has one sample a pixel (after FXAA, Lottes 2009).

@@ -7,6 +7,8 @@ struct PostNumbers {
     // Linear, straight.
     background: vec4f,
     bloom: f32,
+    // What light is multiplied by.
+    exposure: f32,
     tone: u32,
 }
 
@@ -22,8 +24,9 @@ fn vs_main(@builtin(vertex_index) vertex: u32) -> PictureVarying {
 
 // Premultiplied colour of a place, toned.
 fn finished(uv: vec2f) -> vec4f {
-    let drawn = textureSampleLevel(picture, post_sampler, uv, 0.0);
-    let light = textureSampleLevel(spread, post_sampler, uv, 0.0).rgb * post.bloom;
+    var drawn = textureSampleLevel(picture, post_sampler, uv, 0.0);
+    drawn = vec4f(drawn.rgb * post.exposure, drawn.a);
+    let light = textureSampleLevel(spread, post_sampler, uv, 0.0).rgb * (post.bloom * post.exposure);
     // Light in the air covers what is behind the character as far as it is bright.
     let alpha = 1.0 - (1.0 - drawn.a) * (1.0 - saturate(max(light.r, max(light.g, light.b))));
     let straight = (drawn.rgb + light) / max(alpha, 1e-4);
