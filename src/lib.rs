@@ -36,6 +36,7 @@ pub mod color;
 mod error;
 pub mod golden;
 pub mod gpu;
+pub mod hair;
 pub mod import;
 mod look;
 pub mod material;

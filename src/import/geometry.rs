@@ -10,9 +10,9 @@ use crate::scene::{Influences, MorphTarget, Primitive};
 
 use super::accessor::Accessor;
 use super::fault::{Fault, Limits, Result, within};
-use super::primitive::{Source, Topology};
+use super::primitive::{self, Source, Topology};
 use super::warnings::Warnings;
-use super::{normals, tangents};
+use super::{normals, strands, tangents};
 
 /// Running totals over the file.
 #[derive(Debug, Default)]
@@ -102,6 +102,7 @@ pub(super) fn build(
     if !material.is_some_and(|m| matches!(m.origin, Origin::Mtoon0 | Origin::Mtoon1)) {
         primitive.colors = colors(source, cx, &used);
     }
+    strands::read(&mut primitive, source, cx.accessors, &used, warnings);
     primitive.influences = influences(source, cx, &used, warnings)?;
     primitive.morphs = morphs(source, cx, &used, budget, warnings)?;
     primitive.indices = indices;
@@ -197,8 +198,11 @@ fn compact(corners: &[u32]) -> (Vec<u32>, Vec<u32>) {
 fn charge(source: &Source, cx: &Context, vertices: usize, indices: usize, budget: &mut Budget) -> Result<()> {
     budget.vertices = budget.vertices.saturating_add(vertices as u64);
     within(&source.pointer, budget.vertices, cx.limits.vertices, "vertices")?;
-    // Position, two normals, tangent, colour and two UV sets; six bytes an influence.
-    let each = 84u64.saturating_add((source.influences.len() as u64).saturating_mul(24));
+    // Position, two normals, tangent, colour and two UV sets; six bytes an influence; what is said of strips of hair.
+    let primitive::Hair { tangent, root_tip, strip_id } = source.hair;
+    let hair = [(tangent, 12u64), (root_tip, 4), (strip_id, 4)];
+    let hair: u64 = hair.into_iter().filter(|(accessor, _)| accessor.is_some()).map(|(_, bytes)| bytes).sum();
+    let each = 84u64.saturating_add((source.influences.len() as u64).saturating_mul(24)).saturating_add(hair);
     let bytes = each.saturating_mul(vertices as u64).saturating_add((indices as u64).saturating_mul(4));
     budget.bytes(&source.pointer, bytes, cx.limits)
 }

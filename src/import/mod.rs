@@ -37,6 +37,7 @@ mod radiance;
 mod role;
 mod skin;
 mod spring;
+mod strands;
 mod tangents;
 mod texture;
 mod vrm0;
@@ -218,7 +219,7 @@ fn read_mesh(
     needs_default: &mut bool,
     warnings: &mut Warnings,
 ) -> fault::Result<Mesh> {
-    let sources = primitive::read(json, cx.accessors, cx.materials.len(), cx.limits)?;
+    let sources = primitive::read(json, cx.accessors, cx.materials.len(), cx.limits, warnings)?;
     let mut mesh = Mesh { name: json.name()?, ..Mesh::default() };
     for source in &sources {
         if let Some(mut primitive) = geometry::build(source, cx, budget, warnings)? {

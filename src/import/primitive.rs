@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use super::accessor::{Accessor, Component};
 use super::fault::{Limits, Result, within};
 use super::json::Json;
+use super::warnings::Warnings;
 
 use Component::{F32, I8, I16, U8, U16, U32};
 
@@ -41,15 +42,31 @@ pub(super) struct Source {
     /// `JOINTS_n` and `WEIGHTS_n`.
     pub(super) influences: Vec<(usize, usize)>,
     pub(super) targets: Vec<Target>,
+    /// Of strips of hair.
+    pub(super) hair: Hair,
+}
+
+/// Accessors of what files say of strips of hair.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Hair {
+    pub(super) tangent: Option<usize>,
+    pub(super) root_tip: Option<usize>,
+    pub(super) strip_id: Option<usize>,
 }
 
 /// Reads and checks the primitives of a mesh.
-pub(super) fn read(mesh: &Json, accessors: &[Accessor], materials: usize, limits: &Limits) -> Result<Vec<Source>> {
+pub(super) fn read(
+    mesh: &Json,
+    accessors: &[Accessor],
+    materials: usize,
+    limits: &Limits,
+    warnings: &mut Warnings,
+) -> Result<Vec<Source>> {
     mesh.need("primitives")?;
     let sources = mesh
         .objects("primitives")?
         .iter()
-        .map(|p| read_one(p, accessors, materials, limits))
+        .map(|p| read_one(p, accessors, materials, limits, warnings))
         .collect::<Result<Vec<_>>>()?;
     let targets = sources.first().map_or(0, |s| s.targets.len());
     if let Some(other) = sources.iter().find(|s| s.targets.len() != targets) {
@@ -87,9 +104,38 @@ impl Attributes<'_> {
         }
         Ok(Some(index))
     }
+
+    /// An attribute of an application. Names of these are nobody's: what is of another type means something else.
+    fn own(
+        &mut self,
+        name: &str,
+        kind: &str,
+        components: &[Component],
+        warnings: &mut Warnings,
+    ) -> Result<Option<usize>> {
+        let Some(index) = self.json.index(name, self.accessors.len(), "accessors")? else { return Ok(None) };
+        let Some(accessor) = self.accessors.get(index) else { return Ok(None) };
+        let pointer = format!("{}/{name}", self.json.pointer());
+        if accessor.expect(name, &[kind], components, &pointer).is_err() {
+            let message = format!("attribute {name}: found {} of another type, expected {kind}: left out", accessor.kind);
+            warnings.add(pointer, message);
+            return Ok(None);
+        }
+        if self.count.is_some_and(|count| count != accessor.count) {
+            warnings.add(pointer, format!("attribute {name}: another count than the other attributes: left out"));
+            return Ok(None);
+        }
+        Ok(Some(index))
+    }
 }
 
-fn read_one(json: &Json, accessors: &[Accessor], materials: usize, limits: &Limits) -> Result<Source> {
+fn read_one(
+    json: &Json,
+    accessors: &[Accessor],
+    materials: usize,
+    limits: &Limits,
+    warnings: &mut Warnings,
+) -> Result<Source> {
     let topology = match json.u64("mode")?.unwrap_or(4) {
         0..=3 => Topology::None,
         4 => Topology::List,
@@ -131,6 +177,11 @@ fn read_one(json: &Json, accessors: &[Accessor], materials: usize, limits: &Limi
             }
         }
     }
+    let hair = Hair {
+        tangent: attributes.own("_HAIR_TANGENT", "VEC3", &[F32, I8, I16], warnings)?,
+        root_tip: attributes.own("_ROOT_TIP", "SCALAR", &[F32, U8, U16], warnings)?,
+        strip_id: attributes.own("_STRIP_ID", "SCALAR", &[F32, U8, U16, U32], warnings)?,
+    };
     let mut targets = Vec::new();
     let target_json = json.objects("targets")?;
     within(json.pointer(), target_json.len() as u64, limits.morph_targets, "morph targets")?;
@@ -153,5 +204,6 @@ fn read_one(json: &Json, accessors: &[Accessor], materials: usize, limits: &Limi
         uvs,
         influences,
         targets,
+        hair,
     })
 }

@@ -70,10 +70,20 @@ impl Primitive {
             ("tangents", self.tangents.len()),
             ("colors", self.colors.len()),
             ("outline_normals", self.outline_normals.len()),
+            ("strands", self.strands.len()),
+            ("root_tip", self.root_tip.len()),
+            ("strip_ids", self.strip_ids.len()),
         ];
         let uvs = self.uvs.iter().map(|set| ("uvs", set.len()));
         for (name, found) in optional.into_iter().chain(uvs).filter(|(_, found)| *found > 0) {
             length(&format!("{of}.{name}"), found, count)?;
+        }
+        let is_odd = |s: &[f32; 3]| (glam::Vec3::from(*s).length() - 1.0).abs() > 1e-2 || !glam::Vec3::from(*s).is_finite();
+        if let Some(at) = self.strands.iter().position(is_odd) {
+            return fault(format!("{of}.strands[{at}]"), "is no unit vector".to_owned());
+        }
+        if let Some(at) = self.root_tip.iter().position(|t| !(0.0..=1.0).contains(t)) {
+            return fault(format!("{of}.root_tip[{at}]"), format!("is {}; expected 0 to 1", self.root_tip[at]));
         }
         let influences = &self.influences;
         length(&format!("{of}.influences.joints"), influences.joints.len(), count * influences.per_vertex)?;

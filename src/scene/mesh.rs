@@ -42,6 +42,13 @@ pub struct Primitive {
     /// Unit normals for the outline: angle-weighted mean over all faces of the mesh that meet at the position, so
     /// that hard edges do not split the hull.
     pub outline_normals: Vec<[f32; 3]>,
+    /// Unit directions of hair from root to tip, in the space of `positions`, at rest (`_HAIR_TANGENT`); empty where the file has
+    /// none.
+    pub strands: Vec<[f32; 3]>,
+    /// How far along its strip of hair each vertex lies: 0 at the root, 1 at the tip (`_ROOT_TIP`); empty where the file has none.
+    pub root_tip: Vec<f32>,
+    /// Number of the strip of hair that each vertex belongs to (`_STRIP_ID`); empty where the file has none.
+    pub strip_ids: Vec<u32>,
 }
 
 /// Skin influences with the same number for each vertex.

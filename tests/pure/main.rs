@@ -5,6 +5,7 @@ mod gltf;
 
 mod expressions;
 mod golden_comparer;
+mod hair;
 mod import;
 mod import_models;
 mod import_mutate;

@@ -1,0 +1,7 @@
+//! Hair as strips: which triangles belong to one lock or card, where it starts and ends, and which way it runs. Needs no GPU.
+
+mod axis;
+mod patches;
+mod strips;
+
+pub use strips::{HairStrips, MAX_STRIPS, NoStrips, StripSort};
