@@ -33,7 +33,7 @@ pub(crate) fn put_view(gpu: &mut Block<'_>, view: &View, stage: &Stage) {
     let directional = &lights.directional;
     let punctual: [_; MAX_PUNCTUAL_LIGHTS] =
         std::array::from_fn(|i| lights.punctual.get(i).map_or([[0.0; 4]; 3], punctual));
-    gpu.put("clip_from_world", (camera.clip_from_view(aspect) * view_from_world).to_cols_array_2d());
+    gpu.put("clip_from_world", view.clip_from_world().to_cols_array_2d());
     gpu.put("view_from_world", view_from_world.to_cols_array_2d());
     gpu.put("eye", camera.eye.to_array());
     gpu.put("time_s", stage.time_s);
