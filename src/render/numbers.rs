@@ -48,6 +48,7 @@ pub(crate) fn put_view(gpu: &mut Block<'_>, view: &View, stage: &Stage) {
     let DepthRange { a, b } = DepthRange::of(camera);
     gpu.put("host_depth", [a, b / camera.near]);
     gpu.put("px_per_m", view.px_per_m(stage.places()));
+    gpu.put("number", view.frame);
     gpu.put("punctual", punctual);
 }
 
