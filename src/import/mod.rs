@@ -57,7 +57,7 @@ use json::Json;
 use warnings::Warnings;
 
 /// Extensions that are read. A file that requires any other is refused.
-const SUPPORTED: [&str; 13] = [
+const SUPPORTED: [&str; 14] = [
     "VRM",
     "VRMC_vrm",
     "VRMC_materials_mtoon",
@@ -65,6 +65,7 @@ const SUPPORTED: [&str; 13] = [
     "VRMC_springBone",
     "VRMC_springBone_extended_collider",
     "VRMC_node_constraint",
+    "KHR_materials_ior",
     "KHR_materials_unlit",
     "KHR_materials_emissive_strength",
     "KHR_texture_transform",

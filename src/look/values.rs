@@ -9,7 +9,8 @@ use crate::color::Srgb;
 /// replaced whole.
 pub(super) fn merge(under: &mut Table, over: &Table) {
     for (key, value) in over {
-        let is_switch = matches!(under.get(key), Some(Value::Boolean(_)));
+        // Edges may be switched off, too, beside their names.
+        let is_switch = matches!(under.get(key), Some(Value::Boolean(_))) || key == "antialias";
         match (under.get_mut(key), value) {
             (Some(Value::Table(a)), Value::Table(b)) => {
                 let is_variant = ["shading", "width"].contains(&key.as_str()) && !a.keys().eq(b.keys());

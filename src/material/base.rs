@@ -1,6 +1,6 @@
 //! Lit colour.
 
-use super::{AlphaMode, Section, Surroundings, TextureRef};
+use super::{AlphaMode, Options, Section, Surroundings, TextureRef};
 use crate::render::layout::Block;
 
 crate::section! {
@@ -19,6 +19,11 @@ impl Section for Base {
     fn put(&self, gpu: &mut Block<'_>, of: &Surroundings<'_>) {
         let alpha = of.material.alpha;
         gpu.put("alpha_cutoff", if alpha.mode == AlphaMode::Mask { alpha.cutoff } else { 0.5 });
+        gpu.put("hash_m", of.metres_per_uv);
+    }
+
+    fn options(&self, on: &mut Options, of: &Surroundings<'_>) {
+        on.set("alpha_hashed", of.material.is_hashed());
     }
 
     fn is_on(&self, of: &Surroundings<'_>) -> bool {

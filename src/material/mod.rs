@@ -111,6 +111,16 @@ impl Material {
         self.fire.is_some() && self.alpha.mode == AlphaMode::Blend
     }
 
+    /// Whether noise cuts it.
+    pub(crate) fn is_hashed(&self) -> bool {
+        self.alpha.hashed && self.alpha.mode != AlphaMode::Opaque && !self.burns()
+    }
+
+    /// How it is drawn: what noise cuts is masked.
+    pub(crate) fn drawn_mode(&self) -> AlphaMode {
+        if self.is_hashed() { AlphaMode::Mask } else { self.alpha.mode }
+    }
+
     /// Visits every texture: its key, how it is read, value.
     pub(crate) fn each_texture(&mut self, visit: &mut dyn FnMut(String, Read, &mut TextureRef)) {
         for section in self.sections_mut() {

@@ -110,7 +110,7 @@ pub(super) fn draws(scene: &Scene, parts: &[Part], has_stencil: bool) -> Vec<Dra
     let mut draws: Vec<Draw> = Vec::new();
     for part in parts {
         let Some(material) = scene.materials.get(part.material) else { continue };
-        let blend = material.alpha.mode == AlphaMode::Blend;
+        let blend = material.drawn_mode() == AlphaMode::Blend;
         let casts_on_face = scene.bangs.is_some() && !blend && casts_on_face(part.role);
         let casts_lids = has_lids && matches!(part.role, Role::Face | Role::Lash) && !blend;
         let mark = if has_marks && !blend {

@@ -24,7 +24,7 @@ use super::{
     Background, Channel, Clock, FRAME_TIMEOUT, Layouts, Output, Renderer, Target, Timed, View, bind, readback,
 };
 use crate::color::Srgb;
-use crate::scene::{Image, Post, ToneCurve};
+use crate::scene::{Antialias, Image, Post, ToneCurve};
 use crate::stage::bodies::Bodies;
 use crate::{Error, Gpu, Result, Stage};
 
@@ -54,8 +54,12 @@ pub(super) struct Frame {
 /// What a frame shows.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Shown<'a> {
-    /// The finished picture.
+    /// The finished picture, one of those that follow each other in a window.
     Picture,
+    /// The finished picture by itself.
+    Still,
+    /// One of many finished pictures of which the mean is taken.
+    Sample,
     /// A debug channel of shading.
     Channel(&'a str),
     /// The floor of benches.
@@ -85,16 +89,30 @@ impl<'a> Shown<'a> {
     fn sight(self, stage: &Stage, post: Option<Post>) -> Sight<'a> {
         let channel = match self {
             Self::Channel(channel) => Some(channel),
-            Self::Picture | Self::Floor(_) => None,
+            _ => None,
         };
         Sight { channel, punctual: !stage.lights.punctual.is_empty(), hdr: post.is_some() }
     }
 
     /// What is done to the whole of it: what is laid over something goes the same way.
     fn post(self, stage: &Stage, target: &Target<'_>, output: Output) -> Option<Post> {
-        let post = stage.post.filter(|_| matches!(self, Self::Picture));
-        let plain = Post { bloom: None, exposure_ev: 0.0, tone: ToneCurve::None, antialias: false };
+        let post = stage.post.filter(|_| self.is_finished());
+        let post = post.map(|p| Post { antialias: self.antialias(p.antialias), ..p });
+        let plain = Post { bloom: None, exposure_ev: 0.0, tone: ToneCurve::None, antialias: Antialias::None };
         post.or_else(|| target.is_laid_over(output).then_some(plain))
+    }
+
+    /// Whether it is a picture as a whole.
+    fn is_finished(self) -> bool {
+        matches!(self, Self::Picture | Self::Still | Self::Sample)
+    }
+
+    /// How edges are smoothed, where the stage asks for this.
+    fn antialias(self, asked: Antialias) -> Antialias {
+        match (self, asked) {
+            (Self::Sample, _) => Antialias::None,
+            _ => asked,
+        }
     }
 }
 
@@ -184,8 +202,8 @@ impl Frame {
     ) -> Result<()> {
         let frame = self.color_frame_group(stage, take.post);
         // What is behind everything.
-        if let (Shown::Picture, Background::Environment, Some(_), false) =
-            (take.shown, take.view.background, &stage.lights.environment, take.target.keeps_color)
+        if let (true, Background::Environment, Some(_), false) =
+            (take.shown.is_finished(), take.view.background, &stage.lights.environment, take.target.keeps_color)
         {
             let map = &self.environment;
             let inputs = BackgroundInputs { variants: &r.variants, picture: &take.picture, map, frame };
@@ -205,7 +223,7 @@ impl Frame {
         // Eyes and brows through the bangs.
         eyes_through::encode(pass, &actors, pipelines);
         // What they stand on.
-        if let (Shown::Picture, Some(ground), Some(body)) = (take.shown, &stage.ground, &stage.bodies.ground) {
+        if let (true, Some(ground), Some(body)) = (take.shown.is_finished(), &stage.ground, &stage.bodies.ground) {
             let inputs = GroundInputs { variants: &r.variants, picture: &take.picture, ground, body, frame };
             r.ground().encode(pass, &inputs)?;
         }

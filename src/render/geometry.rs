@@ -146,8 +146,8 @@ impl Geometry {
         }
         geometry.moved_by_joint = vec![None; geometry.joint_count];
         // Opaque first and by material, so that draws merge; blended parts keep their order in the file.
-        let blend = |p: &Primitive| scene.materials.get(p.material).is_some_and(|m| m.alpha.mode == AlphaMode::Blend);
-        let mask = |p: &Primitive| scene.materials.get(p.material).is_some_and(|m| m.alpha.mode == AlphaMode::Mask);
+        let blend = |p: &Primitive| scene.materials.get(p.material).is_some_and(|m| m.drawn_mode() == AlphaMode::Blend);
+        let mask = |p: &Primitive| scene.materials.get(p.material).is_some_and(|m| m.drawn_mode() == AlphaMode::Mask);
         parts.sort_by_key(|(id, _, p, ..)| (blend(p), mask(p), if blend(p) { 0 } else { p.material }, *id));
         let mut materials_by_id = vec![0; parts.len()];
         for (id, node, primitive, group, rest_matrix) in &parts {

@@ -78,7 +78,7 @@ impl Composition {
             }));
             components.push(Component { about, hooks: shaders.hooks(about).to_vec(), options, slots });
         }
-        Self { components, alpha: material.alpha.mode, driven_uvs: of.driven.uvs }
+        Self { components, alpha: material.drawn_mode(), driven_uvs: of.driven.uvs }
     }
 
     /// Why shaders of this composition cannot draw a changed material, whose own composition is `other`. What is off in it

@@ -1,5 +1,6 @@
 //! The renderer: what it is made of, and what may be asked of it.
 
+mod accumulate;
 pub(crate) mod bind;
 mod blended;
 mod character;
@@ -34,6 +35,7 @@ mod tests;
 use std::sync::{Mutex, OnceLock};
 use std::time::Duration;
 
+pub use accumulate::MOST_ACCUMULATED;
 pub use character::{Character, GpuMemory};
 pub use target::Target;
 pub use view::{Background, Channel, View};
@@ -217,24 +219,28 @@ impl Renderer {
         readback::check(self.output.format)?;
         self.gpu().scoped(|| {
             let shown = match view.channel {
-                Channel::Final => Shown::Picture,
+                Channel::Final => Shown::Still,
                 Channel::Look(channel) => Shown::Channel(channel),
                 _ => return lock(&self.frame).render_geometry(self, stage, view),
             };
-            let gpu = self.gpu();
-            let kept = lock(&self.frame).picture.take().filter(|t| [t.width(), t.height()] == view.size);
-            let texture = kept.unwrap_or_else(|| {
-                targets::texture(gpu, "picture", view.size, 1, self.output.format, wgpu::TextureUsages::COPY_SRC)
-            });
-            let mut encoder =
-                gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
-            self.prepare(&mut encoder, stage)?;
-            self.encode(&mut encoder, stage, view, Target::from(&targets::view(&texture)), shown, &Clock::off())?;
-            gpu.queue.submit([encoder.finish()]);
-            let texels = readback::read_texels(gpu, &texture, FRAME_TIMEOUT)?;
-            lock(&self.frame).picture = Some(texture);
-            Ok(readback::picture(view.size, self.output.format, &texels))
+            Ok(readback::picture(view.size, self.output.format, &self.texels(stage, view, shown)?))
         })?
+    }
+
+    /// Texels of a view that is drawn into a picture of its own.
+    fn texels(&self, stage: &mut Stage, view: &View, shown: Shown<'_>) -> Result<Vec<u8>> {
+        let gpu = self.gpu();
+        let kept = lock(&self.frame).picture.take().filter(|t| [t.width(), t.height()] == view.size);
+        let texture = kept.unwrap_or_else(|| {
+            targets::texture(gpu, "picture", view.size, 1, self.output.format, wgpu::TextureUsages::COPY_SRC)
+        });
+        let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
+        self.prepare(&mut encoder, stage)?;
+        self.encode(&mut encoder, stage, view, Target::from(&targets::view(&texture)), shown, &Clock::off())?;
+        gpu.queue.submit([encoder.finish()]);
+        let texels = readback::read_texels(gpu, &texture, FRAME_TIMEOUT)?;
+        lock(&self.frame).picture = Some(texture);
+        Ok(texels)
     }
 
     /// Encodes what all views of a frame share: poses, and maps of shadows; only where something has changed. Once a frame,

@@ -34,7 +34,7 @@ pub(crate) fn put_view(gpu: &mut Block<'_>, view: &View, stage: &Stage) {
     let directional = &lights.directional;
     let punctual: [_; MAX_PUNCTUAL_LIGHTS] =
         std::array::from_fn(|i| lights.punctual.get(i).map_or([[0.0; 4]; 3], punctual));
-    gpu.put("clip_from_world", (camera.clip_from_view(aspect) * view_from_world).to_cols_array_2d());
+    gpu.put("clip_from_world", view.clip_from_world().to_cols_array_2d());
     gpu.put("view_from_world", view_from_world.to_cols_array_2d());
     gpu.put("eye", camera.eye.to_array());
     gpu.put("time_s", stage.time_s);
@@ -50,6 +50,7 @@ pub(crate) fn put_view(gpu: &mut Block<'_>, view: &View, stage: &Stage) {
     let DepthRange { a, b } = DepthRange::of(camera);
     gpu.put("host_depth", [a, b / camera.near]);
     gpu.put("px_per_m", view.px_per_m(stage.places()));
+    gpu.put("number", view.frame);
     gpu.put("punctual", punctual);
     let environment = lights.environment.as_ref();
     let (strength, turn_rad) = environment.map_or((1.0, 0.0), |e| (e.strength, e.turn_rad));

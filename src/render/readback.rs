@@ -110,3 +110,64 @@ pub(crate) fn picture(size: [u32; 2], format: wgpu::TextureFormat, texels: &[u8]
     }
     Image { width: size[0], height: size[1], pixels, format: "png", source_bits: 8, ..Image::default() }
 }
+
+/// Sum of premultiplied texels of such a format in linear light, for their mean.
+pub(crate) struct Sum {
+    format: wgpu::TextureFormat,
+    /// Linear light of each code of 8 bits.
+    decoded: [f32; 256],
+    sum: Vec<[f32; 4]>,
+    count: u32,
+}
+
+impl Sum {
+    pub fn new(format: wgpu::TextureFormat) -> Self {
+        let decoded = std::array::from_fn(|code| linear_from_srgb(code as f32 / 255.0));
+        Self { format, decoded, sum: Vec::new(), count: 0 }
+    }
+
+    /// Adds a picture, of the size of the others.
+    pub fn add(&mut self, texels: &[u8]) {
+        use wgpu::TextureFormat as F;
+        let Self { format, decoded, sum, count } = self;
+        let size = match format {
+            F::Rgba16Float => 8,
+            F::Rgba32Float => 16,
+            _ => 4,
+        };
+        let is_bgra = matches!(format, F::Bgra8Unorm | F::Bgra8UnormSrgb);
+        sum.resize(texels.len() / size, [0.0; 4]);
+        *count += 1;
+        for (sum, t) in sum.iter_mut().zip(texels.chunks_exact(size)) {
+            let [r, g, b, a] = match format {
+                F::Rgba16Float => std::array::from_fn(|i| half::f16::from_le_bytes([t[2 * i], t[2 * i + 1]]).to_f32()),
+                F::Rgba32Float => std::array::from_fn(|i| f32::from_le_bytes([0, 1, 2, 3].map(|b| t[4 * i + b]))),
+                _ => {
+                    let [r, g, b] = if is_bgra { [2, 1, 0] } else { [0, 1, 2] }.map(|i: usize| decoded[usize::from(t[i])]);
+                    [r, g, b, f32::from(t[3]) / 255.0]
+                }
+            };
+            // Light beyond white ends at white, as it does in each picture by itself.
+            for (sum, c) in sum.iter_mut().zip([r, g, b, a]) {
+                *sum += c.clamp(0.0, 1.0);
+            }
+        }
+    }
+
+    /// The mean: sRGB, straight alpha.
+    pub fn picture(&self, [width, height]: [u32; 2]) -> Image {
+        let code = |linear: f32| (srgb_from_linear(linear) * 255.0).round() as u8;
+        let share = 1.0 / self.count.max(1) as f32;
+        let pixel = |sum: &[f32; 4]| {
+            let [r, g, b, a] = sum.map(|c| c * share);
+            let alpha = (a.min(1.0) * 255.0).round() as u8;
+            if alpha == 0 {
+                return [0; 4];
+            }
+            let [r, g, b] = [r, g, b].map(|c| code(c / a));
+            [r, g, b, alpha]
+        };
+        let pixels = self.sum.iter().flat_map(pixel).collect();
+        Image { width, height, pixels, format: "png", source_bits: 8, ..Image::default() }
+    }
+}

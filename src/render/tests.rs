@@ -142,6 +142,9 @@ fn every_section_alone_links_in_every_pass() {
         }
         let material = material_with(&[about], true, AlphaMode::Mask);
         materials.extend(about.channel.map(|(channel, _)| (material.clone(), Some(channel))));
+        let mut hashed = material.clone();
+        hashed.alpha.hashed = true;
+        materials.push((hashed, None));
         materials.push((Material { shading: Shading::Unlit, ..material }, None));
     }
     validate_all(&shaders, &materials);

@@ -9,7 +9,7 @@ use crate::scene::Scene;
 /// measured.
 pub(crate) fn metres_per_uv(scene: &Scene) -> Vec<[f32; 2]> {
     let mut sums = vec![[0.0f64; 3]; scene.materials.len()];
-    let asks = |material: usize| scene.materials.get(material).is_some_and(|m| m.dissolve.is_some());
+    let asks = |material: usize| scene.materials.get(material).is_some_and(|m| m.dissolve.is_some() || m.is_hashed());
     if (0..sums.len()).any(asks) {
         let rest = scene.rest_world_from_nodes();
         for (node, mesh) in scene.mesh_nodes() {

@@ -25,6 +25,12 @@ pub struct View {
     /// Actor whose eyes it looks through, by its place on the stage: of itself it sees neither head nor hair, as its file says
     /// (VRM, `firstPerson`); shadows and other actors are whole. Default: none of them.
     pub first_person: Option<usize>,
+    /// Moves the picture to the right and down under its pixels, for pictures that are averaged. It changes the projection, so
+    /// that all passes agree; a host that moves its own frame moves its matrices instead. Pixels, range -1..1. Default: 0.
+    pub jitter_px: [f32; 2],
+    /// Number of the picture among those that are averaged: noise of [`hashed`](crate::material::Alpha::hashed) alpha is another
+    /// one in each. Default: 0.
+    pub frame: u32,
 }
 
 impl Default for View {
@@ -35,6 +41,8 @@ impl Default for View {
             background: Background::default(),
             channel: Channel::default(),
             first_person: None,
+            jitter_px: [0.0; 2],
+            frame: 0,
         }
     }
 }
@@ -168,6 +176,18 @@ impl Channel {
 }
 
 impl View {
+    /// `clip_from_world` with reverse Z, moved by the jitter.
+    pub(crate) fn clip_from_world(&self) -> Mat4 {
+        let [width, height] = self.size.map(|s| s as f32);
+        let mut clip_from_view = self.camera.clip_from_view(width / height);
+        let [right, down] = self.jitter_px;
+        if self.jitter_px != [0.0; 2] {
+            let moved = Vec3::new(2.0 * right / width, -2.0 * down / height, 0.0);
+            clip_from_view = Mat4::from_translation(moved) * clip_from_view;
+        }
+        clip_from_view * self.camera.view_from_world()
+    }
+
     /// Size of a metre at the nearest character, pixels. Characters are taken as columns two metres high.
     pub(crate) fn px_per_m<'a>(&self, places: impl Iterator<Item = &'a Mat4>) -> f32 {
         let away = |m: &Mat4| {
@@ -278,6 +298,9 @@ impl View {
         let spanned = forward.cross(camera.up).length_squared();
         if !camera.eye.is_finite() || !spanned.is_finite() || spanned <= 0.0 {
             return fault("camera", "eye, target and up must be finite and span a plane".to_owned());
+        }
+        if !self.jitter_px.iter().all(|px| (-1.0..=1.0).contains(px)) {
+            return fault("jitter", format!("is {:?} pixels; expected -1 to 1 along each axis", self.jitter_px));
         }
         if let Channel::Look(name) = self.channel
             && Channel::from_name(name).is_none()

@@ -26,7 +26,7 @@ pub use environment::{Environment, MAX_RADIANCE, Radiance};
 pub use eyes_through::EyesThrough;
 pub use light::{Ambient, DirectionalLight, Lights, MAX_PUNCTUAL_LIGHTS, PunctualLight, SpotCone};
 pub use mesh::{Influences, Mesh, MorphTarget, Primitive, Skin};
-pub use post::{Bloom, Post, ToneCurve};
+pub use post::{Antialias, Bloom, Post, ToneCurve};
 pub use role::Role;
 pub use self_shadow::{MOST_SHADOWED, SelfShadow};
 pub use texture::{Filter, Image, Sampler, Texture, Wrap};

@@ -14,8 +14,8 @@ crate::part! {
         exposure_ev: f32 = 0.0, in -16.0..=16.0;
         /// What becomes of light that is brighter than white.
         tone: ToneCurve = ToneCurve::None;
-        /// Smooths edges in the finished picture where it has one sample a pixel (after FXAA, Lottes 2009).
-        antialias: bool = true;
+        /// How edges are smoothed beyond the samples of a pixel.
+        antialias: Antialias = Antialias::Fxaa;
     }
 }
 
@@ -27,6 +27,45 @@ crate::part! {
         strength: f32 = 0.6, in 0.0..=4.0;
         /// How far it spreads, share of the picture's height.
         radius: f32 = 0.04, in 0.002..=0.25;
+    }
+}
+
+/// How edges are smoothed beyond the samples of a pixel. In a look file `"none"`, `"fxaa"` or `"temporal"`; `true` and `false`
+/// stand for the first two.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Antialias {
+    /// They are not.
+    None,
+    /// In the finished picture, where it has one sample a pixel (after FXAA, Lottes 2009); with more it does nothing.
+    #[default]
+    Fxaa,
+}
+plain_parts!(Antialias);
+
+impl<'de> serde::Deserialize<'de> for Antialias {
+    fn deserialize<D: serde::Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        struct Names;
+        impl serde::de::Visitor<'_> for Names {
+            type Value = Antialias;
+
+            fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                f.write_str("\"none\" or \"fxaa\"")
+            }
+
+            fn visit_bool<E>(self, is_on: bool) -> Result<Antialias, E> {
+                Ok(if is_on { Antialias::Fxaa } else { Antialias::None })
+            }
+
+            fn visit_str<E: serde::de::Error>(self, name: &str) -> Result<Antialias, E> {
+                match name {
+                    "none" => Ok(Antialias::None),
+                    "fxaa" => Ok(Antialias::Fxaa),
+                    other => Err(E::unknown_variant(other, &["none", "fxaa"])),
+                }
+            }
+        }
+        from.deserialize_any(Names)
     }
 }
 

@@ -6,7 +6,7 @@ use hikage::material::{
     Alpha, AlphaMode, Base, Blink, CastShadow, Decal, Decals, DepthRim, Diamond, Dissolve, DitherFade, Emission, Fire,
     Fluff, Gem, Glow, InnerLines, Material, ShadeRamp, Shading, ShapedHighlight, Sparkle, Stocking, Toon,
 };
-use hikage::scene::{Ambient, Bloom, Image, Post, PunctualLight, Scene, SelfShadow, ToneCurve};
+use hikage::scene::{Ambient, Antialias, Bloom, Image, Post, PunctualLight, Scene, SelfShadow, ToneCurve};
 use hikage::{Background, Channel, Output};
 
 use crate::support::{Shot, gpu, pixel, render, render_with, scene, sphere, square, texture, two_tone, view};
@@ -360,14 +360,14 @@ fn post_smooths_edges_of_one_sample() {
     let gpu = gpu();
     let mut view = ball_view(128);
     view.background = Background::Color(Srgb([0; 3]));
-    let edge_values = |antialias: bool| {
+    let edge_values = |antialias| {
         let mut scene = ball(|m| m.shading = Shading::Unlit);
         scene.post = Some(Post { antialias, ..Post::default() });
         let image = render_with(&gpu, &scene, &view, Output { samples: 1, ..Output::default() });
         image.pixels.chunks(4).filter(|p| p[0] > 20 && p[0] < 225).count()
     };
-    assert_eq!(edge_values(false), 0, "one sample has hard edges");
-    assert!(edge_values(true) > 150, "{} pixels lie between", edge_values(true));
+    assert_eq!(edge_values(Antialias::None), 0, "one sample has hard edges");
+    assert!(edge_values(Antialias::Fxaa) > 150, "{} pixels lie between", edge_values(Antialias::Fxaa));
 }
 
 /// Dissolve takes the surface away from whole to nothing, and so does fading; both leave what is left in place.

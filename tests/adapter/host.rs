@@ -3,7 +3,7 @@
 use glam::{Mat4, Vec3};
 use hikage::color::Srgb;
 use hikage::material::{Base, Material, Outline, OutlineWidth, Shading};
-use hikage::scene::{Bloom, Framing, Post, Scene, ToneCurve};
+use hikage::scene::{Antialias, Bloom, Framing, Post, Scene, ToneCurve};
 use hikage::{Actor, Background, Error, Far, Gpu, HostDepth, Output, Renderer, Stage, Target, View};
 
 use crate::support::{HEAD, Shot, anime_heroine, cube, gpu, keep, scene, sphere, texels, two_tone, view};
@@ -390,7 +390,7 @@ fn finished_pictures_are_laid_over_what_is_kept() {
     let view = View { background: Background::Color(Srgb([0x80; 3])), ..shot().view() };
     let clip_from_world =
         view.camera.clip_from_view(view.size[0] as f32 / view.size[1] as f32) * view.camera.view_from_world();
-    let post = Post { bloom: Some(Bloom::default()), tone: ToneCurve::Filmic, antialias: false };
+    let post = Post { bloom: Some(Bloom::default()), tone: ToneCurve::Filmic, antialias: Antialias::None };
     let depth = HOST;
     for (post, samples, depth) in
         [(Some(post), 4, depth), (Some(post), 1, depth), (Some(post), 4, None), (None, 4, None), (None, 1, None)]

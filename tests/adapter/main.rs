@@ -21,3 +21,4 @@ mod oracles;
 mod own_look;
 mod self_shadow;
 mod stage;
+mod temporal;

@@ -337,3 +337,32 @@ fn fire_keeps_its_shape_and_decals_are_placed() {
     assert_eq!((fire.heat, fire.cells), (Some(heat), 6));
     assert_eq!(fire.colors, hikage::material::Fire::blue().colors);
 }
+
+/// Smooth edges go by their name; what was once written still says the same.
+#[test]
+fn antialiasing_goes_by_name_or_switch() {
+    use hikage::scene::Antialias;
+    for (value, expected) in [
+        ("\"none\"", Antialias::None),
+        ("\"fxaa\"", Antialias::Fxaa),
+        ("false", Antialias::None),
+        ("true", Antialias::Fxaa),
+    ] {
+        for before in ["\"fxaa\"", "\"none\""] {
+            let mut scene = doll();
+            apply(&format!("base = \"plain\"\n[post]\nantialias = {before}"), &mut scene).expect("a look");
+            apply(&format!("base = \"plain\"\n[post]\nantialias = {value}"), &mut scene).expect("a look");
+            assert_eq!(scene.post.map(|p| p.antialias), Some(expected), "{before}, then {value}");
+        }
+    }
+    let error = apply("[post]\nantialias = \"smooth\"", &mut doll()).expect_err("unknown");
+    assert!(error.contains("smooth") && error.contains("fxaa"), "{error}");
+    let error = apply("[post]\nantialias = 2", &mut doll()).expect_err("a number");
+    assert!(error.contains("\"none\" or \"fxaa\""), "{error}");
+    assert!(LookFile::template(&{
+        let mut scene = doll();
+        apply("[post]\nantialias = false", &mut scene).expect("a look");
+        scene
+    })
+    .contains("antialias = \"none\""));
+}

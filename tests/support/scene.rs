@@ -230,7 +230,7 @@ impl Shot {
 
     pub fn view(&self) -> View {
         let Self { size, camera, background, channel, .. } = *self;
-        View { size, camera, background, channel, first_person: None }
+        View { size, camera, background, channel, ..View::default() }
     }
 
     /// Sets a stage under its light, with an actor for each place.

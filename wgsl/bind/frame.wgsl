@@ -33,6 +33,8 @@ struct Frame {
     coolness: f32,
     // Size of a metre at the nearest character.
     px_per_m: f32,
+    // Of the picture among those that are averaged.
+    number: u32,
     // Depth of a host is x + y * near / distance.
     host_depth: vec2f,
     punctual: array<PunctualLight, 4>,

@@ -8,7 +8,7 @@ use crate::render::targets::PictureTarget;
 use crate::render::uploads::Uploads;
 use crate::render::variants::Variants;
 use crate::render::{Background, Output, Target, bind, targets};
-use crate::scene::Post;
+use crate::scene::{Antialias, Post};
 use crate::{Gpu, Result};
 
 /// Its pipeline, by whether edges are smoothed.
@@ -76,7 +76,7 @@ impl PostPass {
     /// Makes the pipeline anew where edges are smoothed otherwise, or for another kind of target.
     pub fn fit(&mut self, variants: &Variants, post: Post, target: &Target<'_>) -> Result<()> {
         let kind = Kind {
-            smooths: post.antialias && self.output.samples == 1,
+            smooths: post.antialias == Antialias::Fxaa && self.output.samples == 1,
             is_over: target.keeps_color,
             samples: target.samples(self.output),
         };

@@ -22,7 +22,7 @@ pub(crate) struct PrepassInputs<'a> {
 
 /// What draws a material; without `surfaces`, normal and part are left out.
 pub(crate) fn request(of: &Composition, material: &Material, colors: bool, surfaces: bool) -> Request {
-    let recipe = of.cut("prepass", colors, true).with("part", surfaces).with("normal", surfaces);
+    let recipe = of.cut("prepass", colors, true).with("seen", true).with("part", surfaces).with("normal", surfaces);
     let target = surfaces.then(|| SURFACES_FORMAT.into());
     Request {
         recipe,

@@ -7,6 +7,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use hikage::color::Srgb;
 use hikage::motion::Stance;
 use hikage::scene::Framing;
+use hikage::render::MOST_ACCUMULATED;
 use hikage::{Background, Channel, Grid, Ground};
 
 /// Longest side of a picture: the size of textures that every adapter has.
@@ -92,6 +93,12 @@ pub(crate) fn samples(text: &str) -> Result<u32, String> {
         "4" => Ok(4),
         _ => Err("expected 1 or 4".into()),
     }
+}
+
+/// Pictures of which the mean is taken.
+pub(crate) fn accumulate(text: &str) -> Result<u32, String> {
+    let count = text.parse().ok().filter(|count| (1..=MOST_ACCUMULATED).contains(count));
+    count.ok_or_else(|| format!("expected a number of pictures from 1 to {MOST_ACCUMULATED}"))
 }
 
 /// `#RRGGBB`, `grid` or `shadow`.

@@ -82,6 +82,8 @@ fn wrong_usage_is_status_2_and_names_the_argument() {
         ("--light", "0,91"),
         ("--background", "#12345"),
         ("--samples", "2"),
+        ("--accumulate", "0"),
+        ("--accumulate", "100000"),
         ("--expression", "happy=2"),
         ("--expression", "=1"),
         ("--view", "sideways"),
