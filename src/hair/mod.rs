@@ -2,6 +2,8 @@
 
 mod axis;
 mod patches;
+mod strands;
 mod strips;
 
+pub(crate) use strands::tangents;
 pub use strips::{HairStrips, MAX_STRIPS, NoStrips, StripSort};

@@ -16,7 +16,7 @@ pub use alpha::{Alpha, AlphaMode};
 pub use authored::{Authored, Substance};
 pub use own::{OwnSection, register};
 pub use standard::Standard;
-pub use section::{Declared, Fields, Options, Section, Surroundings};
+pub use section::{Declared, Fields, Generated, Options, Section, Surroundings};
 pub use texture_ref::{TextureRef, UvTransform};
 pub use walk::{Leaf, Part, UNBOUNDED, Walk, shown_range};
 
@@ -72,6 +72,8 @@ sections! {
     diamond: Option<Diamond>,
     /// Fire. Default: none.
     fire: Option<Fire>,
+    /// Strands that are lit. Default: none.
+    hair: Option<Hair>,
     /// Painted highlight that moves. Default: none.
     highlight: Option<Highlight>,
     /// A picture of light looked up by the view-space normal. Default: none.

@@ -68,6 +68,20 @@ impl Options {
     }
 }
 
+/// A texture that is made of numbers; floats by their bits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Generated {
+    /// Azimuthal scattering of fibres.
+    Fibre {
+        /// Width of the detector, radians.
+        width: u32,
+        /// Index of refraction.
+        ior: u32,
+        /// Whether the detector is Gaussian.
+        is_gaussian: bool,
+    },
+}
+
 /// What [`section!`](crate::section) makes of a declaration.
 pub trait Fields: Part + fmt::Debug + Send + Sync + 'static {
     /// What is known of it.
@@ -90,6 +104,11 @@ pub trait Section: Fields {
     /// Switches options of its shader on, beside those of its textures.
     fn options(&self, on: &mut Options, of: &Surroundings<'_>) {
         let _ = (on, of);
+    }
+
+    /// A texture that is made of its numbers, by name; shaders read it as `SECTION_NAME`.
+    fn generated(&self) -> Option<(&'static str, Generated)> {
+        None
     }
 
     /// Whether it does anything to this material.

@@ -1,7 +1,7 @@
 //! The check of a section of an application: whether its WGSL, its numbers and its declaration agree.
 
 use super::material::bytes;
-use super::shaders::{Bound, Recipe, STAGES, Shaders, Stage, file, hooks_of};
+use super::shaders::{Bound, Recipe, STAGES, Shaders, Stage, file, hooks_of, Shape};
 use crate::material::{About, Declared, Kind, LISTED, Material, Section, Surroundings, out_of_range, registered};
 use crate::{Error, Result};
 
@@ -73,7 +73,7 @@ pub(crate) fn check_section<S: Section + Declared + Clone + Default + PartialEq>
     for field in about.inner.fields.iter().filter(|f| matches!(f.kind, Kind::Texture(_))) {
         let name = format!("{}_{}", about.key, field.name);
         recipe.options.set(name.clone(), true);
-        recipe.textures.push(Bound { name, is_array: false });
+        recipe.textures.push(Bound { name, shape: Shape::Flat });
     }
     let mut material = Material::default();
     material.set_own(Some(S::default()));

@@ -10,6 +10,7 @@ use super::{
     vertex::{DeformGroup, DeformVertex, MorphEntry, StaticVertex, pack_unit},
 };
 use crate::{
+    hair::{self, NoStrips},
     material::AlphaMode,
     scene::{FirstPerson, HumanBone, Influences, MorphTarget, Primitive, Role, Scene, Skin},
 };
@@ -85,6 +86,8 @@ pub(crate) struct Geometry {
     pub weight_count: usize,
     /// Material by part id, which counts primitives in the order of nodes.
     pub part_materials: Vec<usize>,
+    /// Materials whose strands cannot be found.
+    pub faults: Vec<(usize, NoStrips)>,
     /// Box round what each joint moves, mesh space.
     moved_by_joint: Vec<Option<(Vec3, Vec3)>>,
 }
@@ -152,7 +155,14 @@ impl Geometry {
         let mut materials_by_id = vec![0; parts.len()];
         for (id, node, primitive, group, rest_matrix) in &parts {
             let sight = sight(scene, &in_head, *node);
-            geometry.push(*id, primitive, *group, *rest_matrix, &sight);
+            let hair = scene.materials.get(primitive.material).and_then(|m| m.hair.as_ref());
+            let head = geometry.rig.head.map(|_| geometry.rig.head_middle);
+            let strands = hair.map(|hair| hair::tangents(hair, primitive, *rest_matrix, head)).transpose();
+            let strands = strands.unwrap_or_else(|fault| {
+                geometry.faults.push((primitive.material, fault));
+                None
+            });
+            geometry.push(*id, primitive, strands.as_deref(), *group, *rest_matrix, &sight);
             materials_by_id[*id as usize] = primitive.material;
         }
         let moved = geometry.moved_by_joint.iter();
@@ -164,7 +174,17 @@ impl Geometry {
         geometry
     }
 
-    fn push(&mut self, id: u32, primitive: &Primitive, mut group: DeformGroup, rest: Mat4, sight: &Sight) {
+    /// `strands` take the place of tangents.
+    fn push(
+        &mut self,
+        id: u32,
+        primitive: &Primitive,
+        strands: Option<&[[f32; 4]]>,
+        mut group: DeformGroup,
+        rest: Mat4,
+        sight: &Sight,
+    ) {
+        let tangents = strands.unwrap_or(&primitive.tangents);
         let first = self.source.len() as u32;
         group.first_vertex = first;
         group.first_influence = self.influences.len() as u32;
@@ -176,7 +196,7 @@ impl Geometry {
         let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
         for (v, &position) in primitive.positions.iter().enumerate() {
             let normal = primitive.normals.get(v).copied().unwrap_or([0.0, 0.0, 1.0]);
-            let tangent = primitive.tangents.get(v).copied().unwrap_or([1.0, 0.0, 0.0, 1.0]);
+            let tangent = tangents.get(v).copied().unwrap_or([1.0, 0.0, 0.0, 1.0]);
             let [tx, ty, tz, sign] = tangent;
             self.source.push(DeformVertex {
                 position,

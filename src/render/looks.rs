@@ -32,7 +32,8 @@ pub(crate) struct Looks {
     pub(super) numbers: wgpu::Buffer,
     pub(super) stride: u64,
     pub(super) textures: Vec<Vec<BoundTexture>>,
-    pub(super) white: [wgpu::TextureView; 2],
+    /// Flat, with layers, as a volume.
+    pub(super) white: [wgpu::TextureView; 3],
     pub(super) default_sampler: wgpu::Sampler,
     pub(super) face_maps: Vec<FaceMap>,
     pub(super) metres_per_uv: Vec<[f32; 2]>,
@@ -113,6 +114,7 @@ impl Looks {
             }),
             BindingKind::Texture => view(name, 0),
             BindingKind::TextureArray => view(name, 1),
+            BindingKind::TextureVolume => view(name, 2),
             BindingKind::Sampler => wgpu::BindingResource::Sampler(
                 texture(name.trim_end_matches("_sampler")).map_or(&self.default_sampler, |t| &t.sampler),
             ),
@@ -216,6 +218,7 @@ pub(super) fn bound_textures(scene: &Scene, composition: &Composition, textures:
         let (view, sampler) = match slot.source {
             Source::Texture(t) => textures.get(&scene.textures, t.texture, slot.read),
             Source::FaceMap(map) => textures.face(map),
+            Source::Generated(generated) => textures.generated(generated),
         };
         BoundTexture { name: slot.name.clone(), view: view.clone(), sampler: sampler.clone() }
     });

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use super::layout::Block;
-use super::shaders::{Bound, Places, Recipe, Shaders};
-use crate::material::{About, AlphaMode, Kind, Leaf, Options, Read, Surroundings, TextureRef, UvTransform, Walk};
+use super::shaders::{Bound, Places, Recipe, Shaders, Shape};
+use crate::material::{About, AlphaMode, Generated, Kind, Leaf, Options, Read, Surroundings, TextureRef, UvTransform, Walk};
 use crate::{Error, Result};
 
 /// Textures that WebGPU promises to one shader stage; 3 are read of the frame and 3 of the character at most.
@@ -20,10 +20,29 @@ pub(crate) struct Slot {
 }
 
 /// Where a [`Slot`] has its texels from.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Source {
     Texture(TextureRef),
     FaceMap(usize),
+    Generated(Generated),
+}
+
+impl Source {
+    fn shape(self) -> Shape {
+        match self {
+            Self::Texture(_) => Shape::Flat,
+            Self::FaceMap(_) => Shape::Array,
+            Self::Generated(Generated::Fibre { .. }) => Shape::Volume,
+        }
+    }
+
+    /// The same without its place on the surface.
+    fn unplaced(self) -> Self {
+        match self {
+            Self::Texture(t) => Self::Texture(TextureRef { transform: UvTransform::default(), ..t }),
+            other => other,
+        }
+    }
 }
 
 /// One section of a material that is on.
@@ -76,6 +95,10 @@ impl Composition {
                     slots.push(Slot { name: format!("{}_{last}", about.key), read, source });
                 }
             }));
+            if let Some((name, generated)) = section.generated() {
+                let name = format!("{}_{name}", about.key);
+                slots.push(Slot { name, read: Read::RAMP, source: Source::Generated(generated) });
+            }
             components.push(Component { about, hooks: shaders.hooks(about).to_vec(), options, slots });
         }
         Self { components, alpha: material.drawn_mode(), driven_uvs: of.driven.uvs }
@@ -95,11 +118,8 @@ impl Composition {
             if let Some(option) = new.options.iter().find(|option| !old.options.has(option)) {
                 return Some(format!("{key} asks for {option}; it did not"));
             }
-            let texture = |slot: &Slot| match slot.source {
-                Source::Texture(t) => (0, t.texture, t.uv_set),
-                Source::FaceMap(map) => (1, map, 0),
-            };
-            let textures = |of: &Component| of.slots.iter().map(|s| (s.name.clone(), texture(s))).collect::<Vec<_>>();
+            let textures =
+                |of: &Component| of.slots.iter().map(|s| (s.name.clone(), s.source.unplaced())).collect::<Vec<_>>();
             if textures(new) != textures(&old) {
                 return Some(format!("{key} has other textures"));
             }
@@ -155,7 +175,7 @@ impl Composition {
         let slots = || kept.iter().flat_map(|c| &c.slots);
         let moved = |slot: &Slot| match slot.source {
             Source::Texture(t) => slot.read.by_uv && (t.uv_set != 0 || t.transform != UvTransform::default()),
-            Source::FaceMap(_) => false,
+            Source::FaceMap(_) | Source::Generated(_) => false,
         };
         let is_lit = kept.iter().any(|c| c.about.is_model && !c.about.unlit);
         // What only a pass of its own reads brings nothing to a surface.
@@ -171,7 +191,7 @@ impl Composition {
             sections: kept.iter().map(|c| c.about).collect(),
             options,
             textures: slots()
-                .map(|s| Bound { name: s.name.clone(), is_array: matches!(s.source, Source::FaceMap(_)) })
+                .map(|s| Bound { name: s.name.clone(), shape: s.source.shape() })
                 .collect(),
         }
     }

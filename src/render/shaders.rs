@@ -102,8 +102,16 @@ pub(crate) const STAGES: &[Stage] = &[
 pub(crate) struct Bound {
     /// Section and field: `gem_inclusions`.
     pub name: String,
-    /// Whether it has layers.
-    pub is_array: bool,
+    pub shape: Shape,
+}
+
+/// How a texture is laid out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(crate) enum Shape {
+    Flat,
+    /// Layers.
+    Array,
+    Volume,
 }
 
 /// What a shader is linked from.
@@ -172,6 +180,7 @@ pub(crate) enum BindingKind {
     Numbers,
     Texture,
     TextureArray,
+    TextureVolume,
     Sampler,
 }
 
@@ -302,11 +311,11 @@ impl Shaders {
         }
         self.numbers(recipe, &mut page);
         let mut index = 1;
-        for Bound { name, is_array } in &recipe.textures {
-            let ty = if *is_array {
-                "texture_2d_array<f32>"
-            } else {
-                "texture_2d<f32>"
+        for Bound { name, shape } in &recipe.textures {
+            let ty = match shape {
+                Shape::Flat => "texture_2d<f32>",
+                Shape::Array => "texture_2d_array<f32>",
+                Shape::Volume => "texture_3d<f32>",
             };
             let _ = writeln!(page, "@group(2) @binding({index}) var {name}: {ty};");
             let _ = writeln!(page, "@group(2) @binding({}) var {name}_sampler: sampler;", index + 1);
@@ -473,6 +482,7 @@ fn bindings(module: &naga::Module) -> Vec<Binding> {
             let at = variable.binding.as_ref().filter(|b| b.group == 2)?;
             let kind = match module.types[variable.ty].inner {
                 naga::TypeInner::Image { arrayed: true, .. } => BindingKind::TextureArray,
+                naga::TypeInner::Image { dim: naga::ImageDimension::D3, .. } => BindingKind::TextureVolume,
                 naga::TypeInner::Image { .. } => BindingKind::Texture,
                 naga::TypeInner::Sampler { .. } => BindingKind::Sampler,
                 _ => BindingKind::Numbers,

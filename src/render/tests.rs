@@ -182,7 +182,7 @@ fn all_sections_that_go_together_link_in_every_pass() {
 #[test]
 fn passes_without_a_material_are_valid() {
     let shaders = Shaders::new().expect("sections");
-    for pass in ["background", "bangs_near", "bloom", "deform", "environment"] {
+    for pass in ["background", "bangs_near", "bloom", "deform", "environment", "fibre"] {
         validate(&shaders, &Recipe::plain(pass));
     }
     for (encodes, smooths) in [(false, false), (true, false), (false, true), (true, true)] {

@@ -2,18 +2,20 @@
 
 use std::{
     borrow::Cow,
-    collections::{BTreeMap, BTreeSet, HashMap},
+    collections::{BTreeMap, BTreeSet, HashMap, hash_map::Entry},
     time::Duration,
 };
 
 use rayon::prelude::*;
 
+use super::pass::fibre::{self, FibreInputs};
 use super::targets::array_view;
+use super::variants::Variants;
 use crate::{
     Error, Gpu, Result,
     color::{linear_from_srgb, srgb_from_linear},
     gpu::MAX_TEXTURE_SIDE,
-    material::{Encoding, Read},
+    material::{Encoding, Generated, Read},
     scene::{Filter, Image, Sampler, Texture, Wrap},
     sdf::FaceMap,
 };
@@ -27,9 +29,12 @@ pub(crate) struct TextureSet {
     pub white: wgpu::TextureView,
     /// The same where a shader expects layers.
     pub white_array: wgpu::TextureView,
+    /// The same where it expects a volume.
+    pub white_volume: wgpu::TextureView,
     pub default_sampler: wgpu::Sampler,
     clamped_sampler: wgpu::Sampler,
     face_maps: Vec<wgpu::TextureView>,
+    generated: HashMap<Generated, wgpu::TextureView>,
     /// Texel bytes of all textures, mips included.
     pub bytes: u64,
 }
@@ -83,12 +88,31 @@ impl TextureSet {
             views,
             samplers,
             white_array: array_view(white.texture()),
+            white_volume: white_volume(gpu),
             white,
+            generated: HashMap::new(),
             default_sampler: sampler(gpu, Sampler::default()),
             clamped_sampler: sampler(gpu, clamp),
             face_maps: face_maps.iter().map(|map| face_map(gpu, map)).collect::<Result<_>>()?,
             bytes: bytes + face_maps.iter().map(FaceMap::bytes).sum::<u64>(),
         })
+    }
+
+    /// Makes the textures that these numbers ask for.
+    pub fn generate(&mut self, variants: &Variants, wanted: impl IntoIterator<Item = Generated>) -> Result<()> {
+        for generated in wanted {
+            if let Entry::Vacant(place) = self.generated.entry(generated) {
+                let Generated::Fibre { width, ior, is_gaussian } = generated;
+                let inputs = FibreInputs { width: f32::from_bits(width), ior: f32::from_bits(ior), is_gaussian };
+                place.insert(fibre::table(variants, inputs)?);
+            }
+        }
+        Ok(())
+    }
+
+    /// View and sampler of a generated texture, or white.
+    pub fn generated(&self, generated: Generated) -> (&wgpu::TextureView, &wgpu::Sampler) {
+        (self.generated.get(&generated).unwrap_or(&self.white_volume), &self.clamped_sampler)
     }
 
     /// View and sampler of a face map, or white.
@@ -104,6 +128,20 @@ impl TextureSet {
         let (view, sampler) = found.unwrap_or((&self.white, &self.default_sampler));
         (view, if read.clamped { &self.clamped_sampler } else { sampler })
     }
+}
+
+fn white_volume(gpu: &Gpu) -> wgpu::TextureView {
+    let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("white volume"),
+        size: wgpu::Extent3d { width: 1, height: 1, depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D3,
+        format: wgpu::TextureFormat::Rgba8Unorm,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING,
+        view_formats: &[],
+    });
+    texture.create_view(&wgpu::TextureViewDescriptor::default())
 }
 
 /// Threshold maps of a face as one texture array; texels outside its border repeat it.

@@ -14,7 +14,7 @@ use super::pass::shadow::{self, ShadowFit, ShadowMap};
 use super::pass::{Picture, Sight};
 use super::textures::{self, TextureSet};
 use super::{Renderer, bind, uv_metric};
-use crate::material::{Encoding, MAX_SHELLS, Material, Surroundings, out_of_range};
+use crate::material::{Encoding, Generated, MAX_SHELLS, Material, Surroundings, out_of_range};
 use crate::motion::Driven;
 use crate::scene::{Image, Mesh, Primitive, Scene};
 use crate::sdf::FaceMap;
@@ -33,7 +33,8 @@ impl Renderer {
         let looks = self.looks_of(scene)?;
         gpu.scoped(|| {
             let borrow = |index| scene.images.get(index).map(Cow::Borrowed);
-            let textures = TextureSet::new(&gpu, &scene.textures, &looks.uses(), &scene.face_maps, borrow)?;
+            let mut textures = TextureSet::new(&gpu, &scene.textures, &looks.uses(), &scene.face_maps, borrow)?;
+            textures.generate(&self.variants, looks.generated())?;
             self.upload_with(scene, looks, &textures)
         })?
     }
@@ -53,7 +54,8 @@ impl Renderer {
                 let pixels = std::mem::take(&mut image.pixels);
                 Some(Cow::Owned(Image { pixels, ..image.clone() }))
             };
-            let textures = TextureSet::new(&gpu, textures, &looks.uses(), face_maps, take)?;
+            let mut textures = TextureSet::new(&gpu, textures, &looks.uses(), face_maps, take)?;
+            textures.generate(&self.variants, looks.generated())?;
             self.upload_with(scene, looks, &textures)
         })?
     }
@@ -93,6 +95,11 @@ impl Renderer {
 
     fn upload_with(&self, scene: &Scene, described: Described, textures: &TextureSet) -> Result<Character> {
         let geometry = Geometry::gather(scene);
+        if let Some((material, fault)) = geometry.faults.first() {
+            let what = format!("material {material} {:?}, hair.direction", scene.materials[*material].name);
+            let message = format!("is mesh, but a part of it {fault}; please choose uv-v, uv-u or a flow map");
+            return Err(Error::Argument { what, message });
+        }
         let gpu = self.gpu().clone();
         let buffer = |label, contents: &[u8], usage| bind::filled(&gpu, label, contents, usage);
         use wgpu::BufferUsages as U;
@@ -111,7 +118,7 @@ impl Renderer {
             compositions,
             stride,
             textures: bound,
-            white: [textures.white.clone(), textures.white_array.clone()],
+            white: [textures.white.clone(), textures.white_array.clone(), textures.white_volume.clone()],
             default_sampler: textures.default_sampler.clone(),
             face_maps: scene.face_maps.iter().map(FaceMap::without_texels).collect(),
             metres_per_uv,
@@ -349,12 +356,22 @@ struct Described {
 }
 
 impl Described {
+    /// Textures that are made of numbers.
+    fn generated(&self) -> Vec<Generated> {
+        let slots = self.compositions.iter().flat_map(Composition::slots);
+        let made = |slot: &material::Slot| match slot.source {
+            Source::Generated(generated) => Some(generated),
+            Source::Texture(_) | Source::FaceMap(_) => None,
+        };
+        slots.filter_map(made).collect()
+    }
+
     /// Textures that are read, and how.
     fn uses(&self) -> Vec<(usize, Encoding)> {
         let slots = self.compositions.iter().flat_map(Composition::slots);
         let of_file = |slot: &material::Slot| match slot.source {
             Source::Texture(t) => Some((t.texture, slot.read.encoding)),
-            Source::FaceMap(_) => None,
+            Source::FaceMap(_) | Source::Generated(_) => None,
         };
         slots.filter_map(of_file).collect()
     }

@@ -47,7 +47,7 @@ fn fur_detail_paint(surface: Surface) -> Surface {
     }
     s.texel = vec4f(fur_color(fur, m.shares, flat_color, detail), s.texel.a);
     s.lit = material.base.color.rgb * s.texel.rgb;
-    s.shade = shade_color(s);
+    @if(toon) s.shade = shade_color(s);
     @if(channel_fur) shown = fur;
     return s;
 }

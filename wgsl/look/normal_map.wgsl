@@ -1,7 +1,7 @@
 // Normals from a map.
 import package::bind::surface::Surface;
 import package::bind::uv::{UvTransform, texture_uv};
-import package::lib::normal::normal_from_map;
+import package::lib::normal::{normal_from_map, normalize_or};
 import package::material::{material, normal_map_texture, normal_map_texture_sampler};
 
 struct NormalMap {
@@ -9,11 +9,33 @@ struct NormalMap {
     texture_uv: UvTransform,
 }
 
+// Tangent along u with the sign of the bitangent (Mikkelsen 2010, by derivatives).
+@if(strands_by_vertex)
+fn texture_frame(n: vec3f, position: vec3f, uv: vec2f) -> vec4f {
+    let px = dpdx(position);
+    let py = dpdy(position);
+    let ux = dpdx(uv);
+    let uy = dpdy(uv);
+    let across = cross(py, n);
+    let down = cross(n, px);
+    let t = across * ux.x + down * uy.x;
+    let b = across * ux.y + down * uy.y;
+    // v runs downwards in the texture.
+    let tangent = normalize_or(t - n * dot(n, t), vec3f(1.0, 0.0, 0.0));
+    return vec4f(tangent, select(1.0, -1.0, dot(cross(n, tangent), b) > 0.0));
+}
+
 fn normal_map_bend(surface: Surface) -> Surface {
     var s = surface;
     let bent = textureSample(
         normal_map_texture, normal_map_texture_sampler, texture_uv(s.uv, material.normal_map.texture_uv)
     ).xyz;
-    s.normal = normal_from_map(bent, material.normal_map.scale, s.normal, s.tangent, s.at.tangent.w);
+    // Where strands have taken the place of tangents, those of the texture come from its change over the picture.
+    @if(strands_by_vertex) {
+        let frame = texture_frame(s.normal, s.at.world_position, texture_uv(s.uv, material.normal_map.texture_uv));
+        s.normal = normal_from_map(bent, material.normal_map.scale, s.normal, frame.xyz, frame.w);
+    }
+    @if(!strands_by_vertex) s.normal =
+        normal_from_map(bent, material.normal_map.scale, s.normal, s.tangent, s.at.tangent.w);
     return s;
 }

@@ -73,8 +73,8 @@ fn tinted(in: Varying) -> vec3f {
         let m = &material.outline;
         let s = surface_of(in, true);
         var source = s.lit;
-        @if(lit && outline_from_shade) source = s.shade;
-        @if(lit && outline_from_shade && shade_ramp) source = ramp_color(s.uv, s.lit, s.shade, 0.0);
+        @if(toon && lit && outline_from_shade) source = s.shade;
+        @if(toon && lit && outline_from_shade && shade_ramp) source = ramp_color(s.uv, s.lit, s.shade, 0.0);
         var color = outline_tinted(source, m.tint_gamma, m.shift, m.tint_factor);
         @if(outline_part_ids) {
             // The texel itself: numbers are not filtered.

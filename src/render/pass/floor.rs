@@ -5,7 +5,7 @@ use crate::Result;
 use crate::material::{Base, Options};
 use crate::render::Character;
 use crate::render::draw_list::{Actors, Draw};
-use crate::render::shaders::{Bound, Recipe};
+use crate::render::shaders::{Bound, Recipe, Shape};
 use crate::render::variants::{Drawn, Request, Variants};
 
 /// What draws each surface of a character.
@@ -40,7 +40,7 @@ fn request(picture: &Picture<'_>) -> Request {
         pass: "floor",
         sections: vec![&Base::ABOUT],
         options,
-        textures: vec![Bound { name: "base_texture".to_owned(), is_array: false }],
+        textures: vec![Bound { name: "base_texture".to_owned(), shape: Shape::Flat }],
     };
     let drawing = Drawing { cull: Some(wgpu::Face::Back), blend: false, write_depth: true, mark: Mark::None };
     picture.request(recipe, drawing)

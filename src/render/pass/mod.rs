@@ -6,6 +6,7 @@ pub(crate) mod bangs_shadow;
 pub(crate) mod bloom;
 pub(crate) mod deform;
 pub(crate) mod eyes_through;
+pub(crate) mod fibre;
 pub(crate) mod floor;
 pub(crate) mod fluff;
 pub(crate) mod glow;

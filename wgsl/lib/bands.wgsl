@@ -1,0 +1,9 @@
+// Light as painters cut it.
+
+// Brightness cut into even bands; each edge is a ramp over a share of a band.
+fn banded(x: f32, steps: u32, edge: f32) -> f32 {
+    let n = f32(steps);
+    let at = x * n;
+    let half = 0.5 * max(edge, 1e-3);
+    return (floor(at) + smoothstep(0.5 - half, 0.5 + half, fract(at))) / n;
+}

@@ -1,0 +1,237 @@
+// Hair lit as strands, over toon shading as far as wanted.
+import package::bind::actor::actors;
+import package::bind::environment::{environment_irradiance, environment_radiance};
+import package::bind::frame::frame;
+import package::bind::lights::punctual_light;
+import package::bind::shown::shown;
+import package::bind::surface::{Shaded, Surface};
+import package::lib::bands::banded;
+import package::lib::fibre::{fibre_absorption, fibre_longitudinal, fibre_tilted};
+import package::lib::kajiya_kay::{shifted_strand, strand_specular, wrapped_lambert};
+import package::lib::light::luminance;
+import package::look::hair::{strand_direction, strand_shift};
+import package::material::{hair_table, hair_table_sampler, material};
+import package::model::standard::physical_light;
+import package::model::toon::toon_model;
+
+// What of a strand all lights ask for.
+struct Strand {
+    // Unit, from root to tip.
+    direction: vec3f,
+    shift: f32,
+    color: vec3f,
+    // Share of light that comes through the hair about it.
+    occlusion: f32,
+    // Fibres between it and the key light.
+    crossed: f32,
+}
+
+// Light of one direction on it: its body, and its highlights.
+struct Lit {
+    body: vec3f,
+    highlights: vec3f,
+}
+
+const PI: f32 = 3.14159265;
+
+fn strand_of(s: Surface) -> Strand {
+    var strand: Strand;
+    strand.direction = strand_direction(s);
+    strand.shift = strand_shift(s);
+    strand.color = s.lit;
+    strand.occlusion = 1.0;
+    return strand;
+}
+
+// Where a strand mirrors the viewer to: in the plane of the view and of its normal that faces it.
+fn strand_mirrored(s: Surface, t: vec3f) -> vec3f {
+    let across = s.view - t * dot(t, s.view);
+    return reflect(-s.view, across * inverseSqrt(max(dot(across, across), 1e-8)));
+}
+
+@if(hair_kajiya_kay)
+fn strand_lit(s: Surface, strand: Strand, to_light: vec3f, share: f32) -> Lit {
+    let m = &material.hair;
+    let h = normalize(s.view + to_light);
+    let first = shifted_strand(strand.direction, s.normal, m.kajiya_kay_primary_shift + strand.shift);
+    let second = shifted_strand(strand.direction, s.normal, m.kajiya_kay_secondary_shift + strand.shift);
+    let n_dot_l = dot(s.normal, to_light);
+    let around = wrapped_lambert(n_dot_l, m.wrap) * strand.occlusion;
+    // The side that is turned from the light has no highlights.
+    let facing = around * smoothstep(-0.2, 0.2, n_dot_l) * share;
+    var lit: Lit;
+    lit.body = strand.color * (around * share);
+    let primary = m.kajiya_kay_primary_color
+        * (m.kajiya_kay_direct.x * strand_specular(first, h, m.kajiya_kay_primary_exponent));
+    let secondary = m.kajiya_kay_secondary_color * strand.color
+        * (m.kajiya_kay_direct.y * strand_specular(second, h, m.kajiya_kay_secondary_exponent));
+    let blinn = m.kajiya_kay_primary_color
+        * (m.kajiya_kay_direct.z * pow(max(dot(s.normal, h), 1e-4), m.kajiya_kay_primary_exponent));
+    lit.highlights = (primary + secondary + blinn) * facing;
+    @if(channel_hair_primary) shown += primary * facing;
+    @if(channel_hair_secondary) shown += secondary * facing;
+    return lit;
+}
+
+@if(hair_kajiya_kay)
+fn strand_lit_from_around(s: Surface, strand: Strand) -> Lit {
+    let m = &material.hair;
+    let first = shifted_strand(strand.direction, s.normal, m.kajiya_kay_primary_shift + strand.shift);
+    let second = shifted_strand(strand.direction, s.normal, m.kajiya_kay_secondary_shift + strand.shift);
+    let roughness = 1.0 - m.kajiya_kay_smoothness;
+    let left = 1.0 - m.kajiya_kay_gray_scale * luminance(strand.color);
+    var lit: Lit;
+    lit.body = strand.color * environment_irradiance(s.normal) * strand.occlusion;
+    lit.highlights = (
+        m.kajiya_kay_primary_color * m.kajiya_kay_indirect.x
+            * environment_radiance(strand_mirrored(s, first), roughness)
+        + m.kajiya_kay_secondary_color * strand.color * m.kajiya_kay_indirect.y
+            * environment_radiance(strand_mirrored(s, second), min(roughness + 0.25, 1.0))
+        + m.kajiya_kay_primary_color * m.kajiya_kay_indirect.z
+            * environment_radiance(reflect(-s.view, s.normal), roughness)
+    ) * (left * strand.occlusion);
+    return lit;
+}
+
+// Columns of the table of azimuthal scattering: angles from 0 to pi, then two of energies; rows of inclinations, and slices of
+// what a fibre lets through. wgsl/pass/fibre.wgsl makes it.
+const TABLE_ANGLES: f32 = 64.0;
+const TABLE_COLUMNS: f32 = 66.0;
+
+@if(hair_fibre)
+fn fibre_entry(column: f32, row: f32, absorption: f32) -> vec4f {
+    let size = vec3f(textureDimensions(hair_table));
+    let slice = (exp(-absorption) * (size.z - 1.0) + 0.5) / size.z;
+    return textureSampleLevel(
+        hair_table, hair_table_sampler, vec3f(column / TABLE_COLUMNS, (row * (size.y - 1.0) + 0.5) / size.y, slice), 0.0
+    );
+}
+
+// Absorption of a strand, by its pigment or by its colour.
+@if(hair_fibre)
+fn strand_absorption(strand: Strand) -> vec3f {
+    let m = &material.hair;
+    var sigma = m.fibre_absorption;
+    if m.fibre_of_base > 0.0 {
+        sigma = mix(sigma, fibre_absorption(strand.color, m.fibre_color_scale), m.fibre_of_base);
+    }
+    return sigma;
+}
+
+// R, and what goes forwards, backwards and many times about, for each colour.
+struct Energies {
+    reflected: f32,
+    forwards: vec3f,
+    backwards: vec3f,
+    around: vec3f,
+}
+
+@if(hair_fibre)
+fn fibre_energies(row: f32, sigma: vec3f) -> Energies {
+    let r = fibre_entry(TABLE_ANGLES + 1.0, row, sigma.r);
+    let g = fibre_entry(TABLE_ANGLES + 1.0, row, sigma.g);
+    let b = fibre_entry(TABLE_ANGLES + 1.0, row, sigma.b);
+    return Energies(r.x, vec3f(r.y, g.y, b.y), vec3f(r.z, g.z, b.z), vec3f(r.w, g.w, b.w));
+}
+
+@if(hair_fibre)
+fn strand_lit(s: Surface, strand: Strand, to_light: vec3f, share: f32) -> Lit {
+    let m = &material.hair;
+    // The shift map tilts the scales.
+    let t = shifted_strand(strand.direction, s.normal, strand.shift);
+    let sin_o = clamp(dot(t, s.view), -1.0, 1.0);
+    let sin_i = clamp(dot(t, to_light), -1.0, 1.0);
+    let cos_o = sqrt(max(1.0 - sin_o * sin_o, 1e-6));
+    let cos_i = sqrt(max(1.0 - sin_i * sin_i, 1e-6));
+    let cos_phi = clamp((dot(s.view, to_light) - sin_o * sin_i) / (cos_o * cos_i), -1.0, 1.0);
+    let column = 0.5 + acos(cos_phi) / PI * (TABLE_ANGLES - 1.0);
+    let row = asin(min(abs(sin_o), 1.0)) / (0.5 * PI);
+    let sigma = strand_absorption(strand);
+    let v = m.fibre_variances;
+    let to_r = fibre_tilted(sin_o, cos_o, m.fibre_tilt_r);
+    let to_tt = fibre_tilted(sin_o, cos_o, m.fibre_tilt_tt);
+    let to_trt = fibre_tilted(sin_o, cos_o, m.fibre_tilt_trt);
+    let along = vec4f(
+        fibre_longitudinal(v.x, sin_i, cos_i, to_r.x, to_r.y),
+        fibre_longitudinal(v.y, sin_i, cos_i, to_tt.x, to_tt.y),
+        fibre_longitudinal(v.z, sin_i, cos_i, to_trt.x, to_trt.y),
+        fibre_longitudinal(v.w, sin_i, cos_i, sin_o, cos_o),
+    );
+    let r = fibre_entry(column, row, sigma.r) * along;
+    let g = fibre_entry(column, row, sigma.g) * along;
+    let b = fibre_entry(column, row, sigma.b) * along;
+    let reflected = vec3f(r.x);
+    let inner = vec3f(r.z, g.z, b.z) + vec3f(r.w, g.w, b.w);
+    let through = vec3f(r.y, g.y, b.y);
+    let e = fibre_energies(row, sigma);
+    // Light arrives straight as far as no fibre is before it (Poisson), and through those that are.
+    let straight = exp(-strand.crossed) * share;
+    let scattered = max(exp(-strand.crossed * (1.0 - e.forwards)) - exp(-strand.crossed), vec3f(0.0)) * share;
+    // Spread along the fibre by each that it has crossed.
+    let wide = fibre_longitudinal(v.w + 0.25 * v.x * strand.crossed, sin_i, cos_i, sin_o, cos_o);
+    let back = e.around * ((1.0 + cos_phi) / (2.0 * PI) * wide * m.fibre_scatter);
+    let on_all_sides = (e.forwards + e.backwards) * (wide / (2.0 * PI) * m.fibre_scatter);
+    // A light of strength 1 is an irradiance of pi.
+    let occluded = PI * strand.occlusion;
+    var lit: Lit;
+    lit.highlights = (reflected + inner) * straight * occluded;
+    lit.body = (through * straight + back * (straight + scattered) + on_all_sides * scattered) * occluded;
+    @if(channel_hair_primary) shown += reflected * straight * occluded;
+    @if(channel_hair_secondary) shown += inner * straight * occluded;
+    return lit;
+}
+
+@if(hair_fibre)
+fn strand_lit_from_around(s: Surface, strand: Strand) -> Lit {
+    let m = &material.hair;
+    let t = shifted_strand(strand.direction, s.normal, strand.shift);
+    let sin_o = clamp(dot(t, s.view), -1.0, 1.0);
+    let row = asin(min(abs(sin_o), 1.0)) / (0.5 * PI);
+    let e = fibre_energies(row, strand_absorption(strand));
+    var lit: Lit;
+    // R spreads as a rough mirror does.
+    let roughness = saturate(sqrt(2.0 * sqrt(m.fibre_variances.x)));
+    lit.highlights = environment_radiance(strand_mirrored(s, t), roughness) * (e.reflected * strand.occlusion);
+    lit.body = environment_irradiance(s.normal)
+        * ((max(e.backwards - e.reflected, vec3f(0.0)) + e.around * m.fibre_scatter) * strand.occlusion);
+    return lit;
+}
+
+// Highlights in the bands of a painter.
+fn strand_highlights(light: vec3f) -> vec3f {
+    let m = &material.hair;
+    @if(!hair_bands) return light * m.highlight_color;
+    @if(hair_bands) {
+        let y = luminance(light);
+        return light * m.highlight_color * (banded(y, m.steps, m.edge) / max(y, 1e-4));
+    }
+}
+
+fn hair_model(s: Surface) -> Shaded {
+    let m = &material.hair;
+    let strand = strand_of(s);
+    @if(channel_strands) shown = strand.direction * 0.5 + 0.5;
+    var l = physical_light(s);
+    var direct = strand_lit(s, strand, frame.to_light, l.own_lit);
+    direct.body *= s.light;
+    direct.highlights *= s.light;
+    @if(punctual) for (var i = 0u; i < frame.punctual_count; i++) {
+        let arriving = punctual_light(i, s.at.world_position);
+        let lit = strand_lit(s, strand, arriving.to_light, 1.0);
+        direct.body += lit.body * arriving.radiance;
+        direct.highlights += lit.highlights * arriving.radiance;
+    }
+    let around = strand_lit_from_around(s, strand);
+    @if(channel_hair_indirect) shown = around.body + around.highlights;
+    l.direct = direct.body + strand_highlights(direct.highlights);
+    l.ambient = around.body + around.highlights;
+    @if(hair_toon) {
+        let drawn = toon_model(s);
+        l.direct = mix(drawn.direct + strand_highlights(direct.highlights), l.direct, m.natural);
+        l.ambient = mix(drawn.ambient, l.ambient, m.natural);
+        l.lit = drawn.lit;
+        l.shading = mix(drawn.shading, l.shading, m.natural);
+        l.gi = mix(drawn.gi, l.gi, m.natural);
+    }
+    return l;
+}
