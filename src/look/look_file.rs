@@ -13,9 +13,9 @@ use super::{
     values::{merge, nearest, no_such, not_finite, units},
 };
 use crate::color::LinearRgb;
-use crate::import::{Limits, image};
+use crate::import::{Limits, image, load_radiance};
 use crate::material::{About, AlphaMode, Field, Kind, Material, Part, Read, all, out_of_range, registered};
-use crate::scene::{Ambient, DirectionalLight, Image, Lights, Role, Sampler, Scene, Texture, Wrap};
+use crate::scene::{Ambient, DirectionalLight, Environment, Image, Lights, Role, Sampler, Scene, Texture, Wrap};
 use crate::sdf::{FaceLayout, FaceMap, Texels};
 use crate::{Error, Result};
 
@@ -25,7 +25,7 @@ const MAX_BYTES: u64 = 1 << 20;
 /// A look in a file: `MODEL.look.toml`.
 ///
 /// ```toml
-/// base = "anime"                      # what it starts from: anime (default) or plain
+/// base = "anime"                      # what it starts from: anime (default), natural or plain
 ///
 /// [parts]                             # roles that were guessed wrong, by the name of a mesh or a material
 /// Hair_mae = "hair-front"
@@ -34,6 +34,11 @@ const MAX_BYTES: u64 = 1 << 20;
 /// direction_deg = [-40, 30]           # to the character's left, and height
 /// color = "#fff4e8"
 /// coolness = 0.2                      # of shade ramps: 0 warm, 1 cool; by the light's colour where it is missing
+///
+/// [environment]                       # light from all around; false for none
+/// source = "studio"                   # studio, sky, or an equirectangular .hdr beside this file
+/// turn_deg = 30                       # to the character's left
+/// strength = 1
 ///
 /// [bangs]                             # sections of the scene; false switches one off
 /// soft_width_mm = 4
@@ -79,6 +84,7 @@ struct Document {
     self_shadow: Option<Value>,
     eyes_through: Option<Value>,
     post: Option<Value>,
+    environment: Option<Value>,
     role: BTreeMap<Role, Table>,
     material: BTreeMap<String, Table>,
 }
@@ -89,6 +95,7 @@ enum BaseName {
     Plain,
     #[default]
     Anime,
+    Natural,
 }
 
 crate::part! {
@@ -105,6 +112,18 @@ crate::part! {
         ambient: [f32; 3] = Ambient::default().sky.0, in 0.0..=100.0;
         /// Of shade ramps: 0 warm, 1 cool; none goes by the light's colour.
         coolness: Option<f32> = None, in 0.0..=1.0;
+    }
+}
+
+crate::part! {
+    /// Light from all around, in the place of `light.ambient`.
+    EnvironmentSection {
+        /// Where it comes from: `studio`, `sky`, or an equirectangular picture of radiance (`.hdr`) beside the look file.
+        source: String = "studio".to_owned();
+        /// How far it is turned to the character's left, radians.
+        turn_rad: f32 = 0.0, in -6.3..=6.3;
+        /// What its light is multiplied by.
+        strength: f32 = 1.0, in 0.0..=1000.0;
     }
 }
 
@@ -178,13 +197,16 @@ impl LookFile {
         }
         match self.document.base {
             BaseName::Plain => Look::Plain,
+            BaseName::Natural => Look::Natural,
             BaseName::Anime => Look::Anime { face: face.cloned() },
         }
         .apply(scene);
         if self.document.light.is_some() {
             let light = self.section("light", self.document.light.as_ref(), None::<LightSection>)?;
-            scene.lights = light.as_ref().map(lights);
+            let environment = scene.lights.take().and_then(|l| l.environment);
+            scene.lights = light.as_ref().map(|section| Lights { environment, ..lights(section) });
         }
+        self.environment(scene)?;
         scene.bangs = self.section("bangs", self.document.bangs.as_ref(), scene.bangs)?;
         scene.self_shadow = self.section("self_shadow", self.document.self_shadow.as_ref(), scene.self_shadow)?;
         scene.eyes_through = self.section("eyes_through", self.document.eyes_through.as_ref(), scene.eyes_through)?;
@@ -261,6 +283,25 @@ impl LookFile {
         }
         let names = meshes.iter().map(|m| m.name.as_str()).chain(materials.iter().map(|m| m.name.as_str()));
         Err(self.fault("parts", no_such("mesh or material", name, names)))
+    }
+
+    /// The environment of the lights.
+    fn environment(&self, scene: &mut Scene) -> Result<()> {
+        let Some(section) = &self.document.environment else { return Ok(()) };
+        let section = self.section("environment", Some(section), None::<EnvironmentSection>)?;
+        let environment = match section {
+            None => None,
+            Some(EnvironmentSection { source, turn_rad, strength }) => {
+                let made = match source.as_str() {
+                    "studio" => Environment::studio(),
+                    "sky" => Environment::sky(),
+                    file => Environment::new(load_radiance(self.beside_this(Path::new(file), "environment.source")?)?),
+                };
+                Some(Environment { turn_rad, strength, ..made })
+            }
+        };
+        scene.lights.get_or_insert_default().environment = environment;
+        Ok(())
     }
 
     /// A section of the scene with what the file says over it.

@@ -3,6 +3,7 @@
 mod anime;
 mod hair_band;
 mod look_file;
+mod natural;
 mod presets;
 mod values;
 
@@ -24,14 +25,19 @@ pub enum Look {
         /// Painted threshold maps over the face's texture. `None`: they are made from the mesh of each face.
         face: Option<Sides>,
     },
+    /// Lit and not drawn: physical surfaces as the file says them, hair as strands, shadows that are soft, a studio all round,
+    /// no lines.
+    Natural,
 }
 
 impl Look {
     /// Changes the materials of a scene, before its upload. Roles decide what is what; a scene without a face keeps its
     /// materials, and a face whose two sides share their texture coordinates the shadow of its normals.
     pub fn apply(&self, scene: &mut Scene) {
-        if let Self::Anime { face } = self {
-            anime::apply(scene, face.as_ref());
+        match self {
+            Self::Plain => {}
+            Self::Anime { face } => anime::apply(scene, face.as_ref()),
+            Self::Natural => natural::apply(scene),
         }
     }
 }

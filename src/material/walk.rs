@@ -69,7 +69,7 @@ macro_rules! plain_parts {
     };
 }
 pub(crate) use plain_parts;
-plain_parts!(bool);
+plain_parts!(bool, String);
 
 impl<T: Part, const N: usize> Part for [T; N] {
     fn walk(&mut self, field: &'static Field, walk: &mut Walk<'_>) {

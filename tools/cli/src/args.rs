@@ -45,12 +45,14 @@ pub(crate) enum LookName {
     Plain,
     /// The head of a shipped anime game.
     Anime,
+    /// Lit and not drawn.
+    Natural,
     /// A look file.
     File(PathBuf),
 }
 
 /// What `--look` is for, in every command that has it.
-pub(crate) const LOOK_HELP: &str = "What is made of the model: plain as in the file, an anime head, or what a look file says \
+pub(crate) const LOOK_HELP: &str = "What is made of the model: plain as in the file, an anime head, natural light in a studio, or what a look file says \
                                     [default: the look that it brings, in a look file beside it (girl.look.toml beside \
                                     girl.vrm) or anime for the built-in character; else plain]";
 
@@ -59,8 +61,9 @@ pub(crate) fn look(text: &str) -> Result<LookName, String> {
     match text {
         "plain" => Ok(LookName::Plain),
         "anime" => Ok(LookName::Anime),
+        "natural" => Ok(LookName::Natural),
         file if file.ends_with(".toml") => Ok(LookName::File(file.into())),
-        _ => Err("expected plain, anime or a look file (NAME.look.toml)".into()),
+        _ => Err("expected plain, anime, natural or a look file (NAME.look.toml)".into()),
     }
 }
 
@@ -113,12 +116,40 @@ pub(crate) fn ground(text: &str) -> Result<Ground, String> {
     })
 }
 
-/// `none` or `#RRGGBB`.
+/// `none`, `environment` or `#RRGGBB`.
 pub(crate) fn background(text: &str) -> Result<Background, String> {
-    if text == "none" {
-        return Ok(Background::Transparent);
+    match text {
+        "none" => Ok(Background::Transparent),
+        "environment" => Ok(Background::Environment),
+        color => {
+            let color = Srgb::from_hex(color).map(Background::Color);
+            color.ok_or_else(|| "expected none, environment or #RRGGBB".into())
+        }
     }
-    Srgb::from_hex(text).map(Background::Color).ok_or_else(|| "expected none or #RRGGBB".into())
+}
+
+/// `--environment`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum EnvironmentName {
+    /// Light from above and below alone.
+    None,
+    /// A studio.
+    Studio,
+    /// A sky.
+    Sky,
+    /// A picture of radiance.
+    File(PathBuf),
+}
+
+/// `studio`, `sky`, `none` or a file.
+pub(crate) fn environment(text: &str) -> Result<EnvironmentName, String> {
+    match text {
+        "none" => Ok(EnvironmentName::None),
+        "studio" => Ok(EnvironmentName::Studio),
+        "sky" => Ok(EnvironmentName::Sky),
+        file if file.to_ascii_lowercase().ends_with(".hdr") => Ok(EnvironmentName::File(file.into())),
+        _ => Err("expected studio, sky, none or an equirectangular picture (NAME.hdr)".into()),
+    }
 }
 
 /// Degrees from -360 to 360.

@@ -43,7 +43,7 @@ pub(crate) struct Args {
         hide_possible_values = true
     )]
     view: ViewName,
-    #[arg(long, value_name = "plain|anime|FILE.look.toml", value_parser = args::look, help = args::LOOK_HELP)]
+    #[arg(long, value_name = "plain|anime|natural|FILE.look.toml", value_parser = args::look, help = args::LOOK_HELP)]
     look: Option<LookName>,
     /// Adapter, by a part of its name (`hikage adapters`).
     #[arg(long, value_name = "NAME")]

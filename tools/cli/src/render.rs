@@ -59,7 +59,13 @@ pub(crate) struct Args {
     /// Which set of shade ramps is shown: 0 warm, 1 cool [default: by the light's colour].
     #[arg(long, value_name = "0..1", value_parser = args::share)]
     coolness: Option<f32>,
-    /// Background: none (transparent) or #RRGGBB [default: #808080].
+    /// Light from all around: an equirectangular picture, or one that is made [default: that of the look].
+    #[arg(long, value_name = "FILE.hdr|studio|sky|none", value_parser = args::environment)]
+    environment: Option<args::EnvironmentName>,
+    /// Turn of it to the character's left.
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = args::yaw)]
+    environment_turn: Option<f32>,
+    /// Background: none (transparent), environment or #RRGGBB [default: #808080].
     #[arg(long, value_name = "COLOR", value_parser = args::background)]
     background: Option<Background>,
     /// What they stand on: a colour, a grid, or their shadow alone.
@@ -78,7 +84,7 @@ pub(crate) struct Args {
     /// Pose of the humanoid [default: rest; relaxed for the built-in character].
     #[arg(long, value_name = "rest|relaxed|bend|offer", value_parser = args::stance)]
     pose: Option<Stance>,
-    #[arg(long, value_name = "plain|anime|FILE.look.toml", value_parser = args::look, help = args::LOOK_HELP)]
+    #[arg(long, value_name = "plain|anime|natural|FILE.look.toml", value_parser = args::look, help = args::LOOK_HELP)]
     look: Option<LookName>,
     /// File with camera, light and background; see below.
     #[arg(long, value_name = "SHOT.json")]
@@ -294,6 +300,13 @@ fn seen(args: &Args, shot: &Shot, stage: &mut Stage) -> Result<View, Failure> {
     }
     if let Some([yaw, pitch]) = args.light.map(|angles| angles.map(f32::to_radians)) {
         lights.directional.to_light = Vec3::new(yaw.sin() * pitch.cos(), pitch.sin(), yaw.cos() * pitch.cos());
+    }
+    if let Some(name) = &args.environment {
+        lights.environment = setup::environment(name)?;
+    }
+    if let Some(turn) = args.environment_turn {
+        let none = || Failure::input("--environment-turn: there is no environment; add --environment studio");
+        lights.environment.as_mut().ok_or_else(none)?.turn_rad = turn.to_radians();
     }
     lights.coolness = args.coolness.or(lights.coolness);
     stage.time_s = args.time;

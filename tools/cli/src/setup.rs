@@ -5,12 +5,13 @@ use std::io::Read as _;
 use std::path::Path;
 
 use hikage::motion::{Pose, Stance};
-use hikage::scene::Scene;
+use hikage::import::load_radiance;
+use hikage::scene::{Environment, Scene};
 use hikage::sdf::{Project, Sides};
 use hikage::{Gpu, Look, LookFile};
 use hikage_character::head::sdf;
 
-use crate::args::LookName;
+use crate::args::{EnvironmentName, LookName};
 use crate::deadline;
 use crate::failure::Failure;
 
@@ -57,10 +58,21 @@ pub(crate) const BUILT_IN: &str = "hikage.vrm";
 pub(crate) fn apply_look(name: Option<&LookName>, model: Option<&Path>, scene: &mut Scene) -> Result<(), Failure> {
     match name.cloned().unwrap_or_else(|| own_look(model)) {
         LookName::Plain => {}
+        LookName::Natural => Look::Natural.apply(scene),
         LookName::Anime => Look::Anime { face: painted(model)? }.apply(scene),
         LookName::File(file) => LookFile::read(file)?.apply(scene, painted(model)?.as_ref())?,
     }
     Ok(())
+}
+
+/// The environment of this name.
+pub(crate) fn environment(name: &EnvironmentName) -> Result<Option<Environment>, Failure> {
+    Ok(match name {
+        EnvironmentName::None => None,
+        EnvironmentName::Studio => Some(Environment::studio()),
+        EnvironmentName::Sky => Some(Environment::sky()),
+        EnvironmentName::File(file) => Some(Environment::new(load_radiance(file)?)),
+    })
 }
 
 /// The look that a model brings: that of the built-in character, or the look file beside a file.

@@ -24,7 +24,7 @@ pub(crate) struct Args {
     /// Picture to write; its folder must exist.
     #[arg(short, long, value_name = "OUT.png", value_parser = png_path)]
     output: PathBuf,
-    #[arg(long, value_name = "plain|anime|FILE.look.toml", value_parser = args::look, help = args::LOOK_HELP)]
+    #[arg(long, value_name = "plain|anime|natural|FILE.look.toml", value_parser = args::look, help = args::LOOK_HELP)]
     look: Option<LookName>,
     /// Shows the face over a sweep instead: the light all round at four heights, the head from side to side, or the camera
     /// from 0.5 to 10 m with the face as large.

@@ -39,7 +39,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "MATERIAL", conflicts_with = "json")]
     wgsl: Option<String>,
     /// With --wgsl: plain, anime or a look file.
-    #[arg(long, value_name = "plain|anime|FILE.look.toml", value_parser = crate::args::look, requires = "wgsl")]
+    #[arg(long, value_name = "plain|anime|natural|FILE.look.toml", value_parser = crate::args::look, requires = "wgsl")]
     look: Option<LookName>,
 }
 

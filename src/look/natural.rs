@@ -1,0 +1,80 @@
+//! The natural look: physical surfaces in a studio, hair as strands, no lines.
+
+use super::anime::materials_of;
+use crate::color::LinearRgb;
+use crate::material::{
+    AlphaMode, CastShadow, FibreModel, Hair, Material, Origin, Rim, Shading, Standard, StrandDirection,
+};
+use crate::scene::{DirectionalLight, Environment, Lights, Post, Role, Scene, SelfShadow, ToneCurve};
+
+/// Strength of the key light beside the studio's own lamps.
+const KEY: f32 = 1.1;
+
+pub(super) fn apply(scene: &mut Scene) {
+    for material in &mut scene.materials {
+        physical(material);
+    }
+    for (roles, change) in [
+        (&[Role::Face, Role::Skin][..], skin as fn(&mut Material)),
+        (&[Role::Mouth], mouth),
+        (&[Role::Eye, Role::EyeWhite], eye),
+        (&[Role::HairFront, Role::Hair], hair),
+    ] {
+        for role in roles {
+            for index in materials_of(scene, *role) {
+                change(&mut scene.materials[index]);
+            }
+        }
+    }
+    scene.self_shadow = Some(SelfShadow { side: 2048, soft_width_m: 0.008, ..SelfShadow::default() });
+    scene.lights = Some(Lights {
+        directional: DirectionalLight { intensity: KEY, color: LinearRgb([1.0, 0.965, 0.92]), ..Default::default() },
+        environment: Some(Environment::studio()),
+        ..Lights::default()
+    });
+    scene.post = Some(Post { tone: ToneCurve::Filmic, ..scene.post.unwrap_or_default() });
+}
+
+/// What the file says of the surface, without what is drawn and not lit.
+fn physical(material: &mut Material) {
+    let surface = match material.origin {
+        Origin::Pbr => material.authored.surface.unwrap_or_default(),
+        _ => Standard::default(),
+    };
+    material.shading = Shading::Standard(surface);
+    material.rim = Rim::default();
+    material.matcap = None;
+    material.outline = None;
+    material.cast_shadow = Some(CastShadow::default());
+    // Painted lights stay what they are.
+    if material.alpha.mode == AlphaMode::Blend && material.origin == Origin::Unlit {
+        material.shading = Shading::Unlit;
+    }
+}
+
+/// A standard surface of this roughness, where the file does not say one.
+fn rough(material: &mut Material, roughness: f32) {
+    if let (Shading::Standard(surface), true) = (&mut material.shading, material.origin != Origin::Pbr) {
+        surface.roughness = roughness;
+    }
+}
+
+fn skin(material: &mut Material) {
+    rough(material, 0.55);
+}
+
+fn mouth(material: &mut Material) {
+    rough(material, 0.35);
+}
+
+fn eye(material: &mut Material) {
+    rough(material, 0.12);
+    // What lies in the lid's shadow would be black in its own.
+    material.cast_shadow = Some(CastShadow { casts: false, ..CastShadow::default() });
+}
+
+/// The colour is that of the file.
+fn hair(material: &mut Material) {
+    let fibre = FibreModel { of_base: 1.0, longitudinal: 0.32, azimuthal: 0.35, ..FibreModel::default() };
+    material.hair = Some(Hair { fibre, direction: StrandDirection::Auto, ..Hair::default() });
+}
