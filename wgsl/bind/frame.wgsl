@@ -33,6 +33,8 @@ struct Frame {
     coolness: f32,
     // Size of a metre at the nearest character.
     px_per_m: f32,
+    // Distance along the view of the nearest sphere of weighted layers, metres.
+    nearest_weighed: f32,
     // Depth of a host is x + y * near / distance.
     host_depth: vec2f,
     punctual: array<PunctualLight, 4>,

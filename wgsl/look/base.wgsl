@@ -8,6 +8,8 @@ struct Base {
     color: vec4f,
     // Alpha below which the surface is cut.
     alpha_cutoff: f32,
+    // Alpha below which nothing is blended.
+    least_alpha: f32,
     texture_uv: UvTransform,
 }
 

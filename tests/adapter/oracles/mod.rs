@@ -7,6 +7,7 @@ mod esm;
 mod face;
 mod mtoon;
 mod stylized;
+mod weighted;
 
 use std::path::PathBuf;
 
