@@ -122,7 +122,13 @@ impl Patch {
             }
             for triangle in &around[at] {
                 let [a, b, c] = self.triangles[*triangle];
-                let others = if a == at { [b, c] } else if b == at { [c, a] } else { [a, b] };
+                let others = if a == at {
+                    [b, c]
+                } else if b == at {
+                    [c, a]
+                } else {
+                    [a, b]
+                };
                 for [to, other] in [others, [others[1], others[0]]] {
                     let along_edge = reached[at] + self.places[at].distance(self.places[to]);
                     let there = along_edge.min(self.across(at, other, to, &reached));
@@ -157,7 +163,11 @@ impl Patch {
         }
         let source = Vec2::new(x, -below.sqrt());
         let crossing = source.x + (corner.x - source.x) * -source.y / (corner.y - source.y).max(1e-12);
-        if (0.0..=length).contains(&crossing) { source.distance(corner) } else { f32::INFINITY }
+        if (0.0..=length).contains(&crossing) {
+            source.distance(corner)
+        } else {
+            f32::INFINITY
+        }
     }
 
     /// A texture axis by place, and how it correlates with a way along the strip.
@@ -171,7 +181,14 @@ impl Patch {
         }
         let values: Vec<f32> = sums.into_iter().map(|(sum, count)| sum / count.max(1) as f32).collect();
         let strength = correlation(&values, walked)?;
-        Some((if strength < 0.0 { values.iter().map(|v| -v).collect() } else { values }, strength.abs()))
+        Some((
+            if strength < 0.0 {
+                values.iter().map(|v| -v).collect()
+            } else {
+                values
+            },
+            strength.abs(),
+        ))
     }
 
     /// The same order, evenly by length: how far the surface reaches for a step along an axis differs from step to step.

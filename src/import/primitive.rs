@@ -117,7 +117,8 @@ impl Attributes<'_> {
         let Some(accessor) = self.accessors.get(index) else { return Ok(None) };
         let pointer = format!("{}/{name}", self.json.pointer());
         if accessor.expect(name, &[kind], components, &pointer).is_err() {
-            let message = format!("attribute {name}: found {} of another type, expected {kind}: left out", accessor.kind);
+            let message =
+                format!("attribute {name}: found {} of another type, expected {kind}: left out", accessor.kind);
             warnings.add(pointer, message);
             return Ok(None);
         }

@@ -20,7 +20,8 @@ pub(super) fn read(
 ) {
     let accessor = |index: Option<usize>| index.and_then(|i| accessors.get(i));
     let mut leave_out = |name: &str, why: &str| {
-        warnings.add(&source.pointer, format!("{name} {why}: it is left out, and found from the mesh where it is needed"));
+        warnings
+            .add(&source.pointer, format!("{name} {why}: it is left out, and found from the mesh where it is needed"));
     };
     if let Some(accessor) = accessor(source.hair.tangent) {
         let (rows, bad) = accessor.floats::<3>(used.iter().copied());

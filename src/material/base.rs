@@ -18,7 +18,13 @@ crate::section! {
 impl Section for Base {
     fn put(&self, gpu: &mut Block<'_>, of: &Surroundings<'_>) {
         let alpha = of.material.alpha;
-        gpu.put("alpha_cutoff", if alpha.mode == AlphaMode::Mask { alpha.cutoff } else { 0.5 });
+        let cutoff = match alpha.mode {
+            AlphaMode::Mask => alpha.cutoff,
+            AlphaMode::Blend if of.material.has_core() => alpha.opaque_cutoff,
+            _ => 0.5,
+        };
+        gpu.put("alpha_cutoff", cutoff);
+        gpu.put("least_alpha", alpha.least_alpha);
         gpu.put("hash_m", of.metres_per_uv);
     }
 

@@ -12,7 +12,7 @@ mod texture_ref;
 mod walk;
 
 pub use about::{About, Encoding, Field, Inner, Kind, Preset, Read};
-pub use alpha::{Alpha, AlphaMode};
+pub use alpha::{Alpha, AlphaMode, Blending};
 pub use authored::{Authored, Substance};
 pub use own::{OwnSection, register};
 pub use standard::Standard;

@@ -40,6 +40,8 @@ pub(crate) struct CharacterData {
     pub looks: Looks,
     pub draws: Vec<Draw>,
     pub has_blended: bool,
+    /// Whether some of that is weighted.
+    pub has_weighted: bool,
     /// What shows each draw in the picture that the upload has made ready.
     pub picture: OnceLock<Shown>,
     /// The same by what the shaders were made for.
@@ -108,10 +110,11 @@ impl Character {
 
     /// The same of so many actors: what is not blended is drawn for all of them together, and what is for those of a crowd.
     pub(crate) fn draw_count_of(&self, actors: usize) -> usize {
-        let count = |p: &Pipelines<Drawn>| 1 + usize::from(p.outline.is_some()) + usize::from(p.fluff.is_some());
+        let has = |p: &Option<Drawn>| usize::from(p.is_some());
+        let count = |p: &Pipelines<Drawn>| 1 + has(&p.outline) + has(&p.fluff) + has(&p.back);
         let apart = if actors > MOST_APART { 1 } else { actors };
         let times = |draw: &Draw| if draw.blend { apart } else { 1 };
-        self.0.draws.iter().zip(self.0.picture()).map(|(draw, p)| times(draw) * count(p)).sum()
+        self.0.draws.iter().zip(self.0.picture()).map(|(draw, p)| times(draw) * count(p) + has(&p.core)).sum()
     }
 
     /// Whether they are the same one.
@@ -200,7 +203,7 @@ impl CharacterData {
         if let Some(depths) = &lock(&self.depths)[usize::from(surfaces)] {
             return Ok(Arc::clone(depths));
         }
-        let depth = |draw: &Draw| (!draw.blend).then(|| self.depth(variants, draw, surfaces)).transpose();
+        let depth = |draw: &Draw| draw.is_solid().then(|| self.depth(variants, draw, surfaces)).transpose();
         let made: Depths = self.draws.iter().map(depth).collect::<Result<_>>()?;
         lock(&self.depths)[usize::from(surfaces)] = Some(Arc::clone(&made));
         Ok(made)
@@ -211,7 +214,7 @@ impl CharacterData {
         if let Some(known) = self.world_shadows.get() {
             return Ok(Arc::clone(known));
         }
-        let casts = |draw: &Draw| !draw.blend && self.material(draw).cast_shadow.is_none_or(|s| s.casts);
+        let casts = |draw: &Draw| draw.is_solid() && self.material(draw).cast_shadow.is_none_or(|s| s.casts);
         let drawn = |draw: &Draw| {
             let request = shadow::request(&self.looks.compositions[draw.material], draw.has_vertex_colors);
             Ok(self.bind(&variants.gpu, variants.get(&request)?, draw.material))

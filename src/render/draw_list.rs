@@ -7,15 +7,16 @@ use glam::Vec3;
 use super::character::Shown;
 use super::geometry::{Geometry, Part};
 use super::material::Composition;
+use super::pass::transparent::Layer;
 use super::pass::{
     DEPTH_STENCIL_FORMAT, Mark, Picture, Sight, bangs_shadow, eyes_through, fluff, glow, opaque, outline, prepass,
-    shadow, transparent,
+    shadow, transparent, weighted,
 };
 use super::shaders::{Recipe, Shaders};
 use super::variants::{Drawn, Request};
 use super::vertex::Instance;
 use super::{Output, uv_metric};
-use crate::material::{AlphaMode, Material, Surroundings};
+use crate::material::{AlphaMode, Blending, Material, Surroundings};
 use crate::motion::Driven;
 use crate::scene::{Role, Scene};
 use crate::stage::bodies::Bodies;
@@ -33,6 +34,10 @@ pub(crate) struct Draw {
     pub center: Vec3,
     pub has_vertex_colors: bool,
     pub blend: bool,
+    /// Whether the opaque part of what is blended is drawn for itself.
+    pub core: bool,
+    /// Whether what is blended is weighted instead of sorted.
+    pub weighted: bool,
     pub write_depth: bool,
     pub queue_offset: i32,
     /// Whether it casts on its own face, and whether its lids cast on its eyes.
@@ -56,6 +61,11 @@ impl Triangles {
 }
 
 impl Draw {
+    /// Whether some of it is solid: has depth, and casts.
+    pub fn is_solid(&self) -> bool {
+        !self.blend || self.core
+    }
+
     pub fn triangles(&self) -> Triangles {
         Triangles { third: self.indices.clone(), first: self.first_person.clone() }
     }
@@ -65,6 +75,10 @@ impl Draw {
 #[derive(Debug)]
 pub(crate) struct Pipelines<P> {
     pub surface: P,
+    /// Draws the opaque part of what is blended.
+    pub core: Option<P>,
+    /// Draws back faces of what is blended before its front faces.
+    pub back: Option<P>,
     pub outline: Option<P>,
     /// Draws the shells of its coat.
     pub fluff: Option<P>,
@@ -83,8 +97,8 @@ pub(crate) struct Pipelines<P> {
 impl<P> Pipelines<P> {
     /// All of them.
     pub fn iter(&self) -> impl Iterator<Item = &P> {
-        let Self { surface, outline, fluff, glow, through, bangs, shadow, prepass } = self;
-        let others = [outline, fluff, glow, through, bangs, shadow, prepass];
+        let Self { surface, core, back, outline, fluff, glow, through, bangs, shadow, prepass } = self;
+        let others = [core, back, outline, fluff, glow, through, bangs, shadow, prepass];
         std::iter::once(surface).chain(others.into_iter().flatten())
     }
 
@@ -92,6 +106,8 @@ impl<P> Pipelines<P> {
     pub fn map<Q, E>(self, mut make: impl FnMut(P) -> Result<Q, E>) -> Result<Pipelines<Q>, E> {
         Ok(Pipelines {
             surface: make(self.surface)?,
+            core: self.core.map(&mut make).transpose()?,
+            back: self.back.map(&mut make).transpose()?,
             outline: self.outline.map(&mut make).transpose()?,
             fluff: self.fluff.map(&mut make).transpose()?,
             glow: self.glow.map(&mut make).transpose()?,
@@ -111,12 +127,13 @@ pub(super) fn draws(scene: &Scene, parts: &[Part], has_stencil: bool) -> Vec<Dra
     for part in parts {
         let Some(material) = scene.materials.get(part.material) else { continue };
         let blend = material.drawn_mode() == AlphaMode::Blend;
-        let casts_on_face = scene.bangs.is_some() && !blend && casts_on_face(part.role);
-        let casts_lids = has_lids && matches!(part.role, Role::Face | Role::Lash) && !blend;
-        let mark = if has_marks && !blend {
-            mark(part.role)
-        } else {
-            Mark::None
+        let core = material.has_core();
+        let casts_on_face = scene.bangs.is_some() && (!blend || core) && casts_on_face(part.role);
+        let casts_lids = has_lids && matches!(part.role, Role::Face | Role::Lash) && (!blend || core);
+        let mark = match mark(part.role) {
+            // What is drawn through hair is drawn whole.
+            mark if has_marks && (!blend || core && mark == Mark::Hair) => mark,
+            _ => Mark::None,
         };
         // Parts are sorted by material, so that those of one material follow each other in the index buffer.
         if let Some(last) = draws.last_mut()
@@ -136,6 +153,8 @@ pub(super) fn draws(scene: &Scene, parts: &[Part], has_stencil: bool) -> Vec<Dra
             center: part.center,
             has_vertex_colors: part.has_vertex_colors,
             blend,
+            core,
+            weighted: material.blending() == Blending::Weighted,
             write_depth: material.alpha.write_depth,
             queue_offset: material.alpha.queue_offset,
             casts_on_face,
@@ -165,12 +184,12 @@ pub(super) fn requests(
     let request = |draw: &Draw| {
         let (of, material) = (&compositions[draw.material], &scene.materials[draw.material]);
         let colors = draw.has_vertex_colors;
-        let casts = scene.self_shadow.is_some() && !draw.blend && material.cast_shadow.is_some_and(|s| s.casts);
+        let casts = scene.self_shadow.is_some() && draw.is_solid() && material.cast_shadow.is_some_and(|s| s.casts);
         Pipelines {
             glow: glows(draw).then(|| glow::request(of, material, colors)),
-            bangs: (scene.bangs.is_some() && !draw.blend).then(|| bangs_shadow::request(of, colors)),
+            bangs: (scene.bangs.is_some() && draw.is_solid()).then(|| bangs_shadow::request(of, colors)),
             shadow: casts.then(|| shadow::request(of, colors)),
-            prepass: (has_prepass && !draw.blend).then(|| prepass::request(of, material, colors, has_surfaces)),
+            prepass: (has_prepass && draw.is_solid()).then(|| prepass::request(of, material, colors, has_surfaces)),
             ..surface_requests(draw, of, material, picture)
         }
     };
@@ -199,11 +218,16 @@ pub(super) fn surface_requests(
 ) -> Pipelines<Request> {
     let colors = draw.has_vertex_colors;
     Pipelines {
-        surface: if draw.blend {
-            transparent::request(picture, of, material, colors)
+        surface: if draw.weighted {
+            weighted::request(picture, of, material, colors)
+        } else if draw.blend {
+            transparent::request(picture, of, material, colors, Layer::Front)
         } else {
             opaque::request(picture, of, material, colors, draw.mark)
         },
+        core: draw.core.then(|| transparent::core_request(picture, of, material, colors, draw.mark)),
+        back: (material.blending() == Blending::ThreePass)
+            .then(|| transparent::request(picture, of, material, colors, Layer::Back)),
         outline: outline::request(picture, of, material, colors).filter(|_| picture.sight.channel.is_none()),
         fluff: (of.has("fluff") && !draw.blend).then(|| fluff::request(picture, of, colors)),
         glow: None,

@@ -16,7 +16,9 @@ use super::pass::glow::{self, GlowInputs};
 use super::pass::ground::GroundInputs;
 use super::pass::post::{PostInputs, PostPass};
 use super::pass::prepass::{self, PrepassInputs};
+use super::pass::resolve::ResolvePass;
 use super::pass::shadow::{self, ShadowInputs};
+use super::pass::weighted::{self, WeightedTargets};
 use super::pass::{HDR_FORMAT, Picture, Sight, eyes_through, fluff, opaque, outline, transparent};
 use super::targets::{self, ColorTargets, PrepassTargets};
 use super::uploads::Uploads;
@@ -44,6 +46,7 @@ pub(super) struct Frame {
     bloom: Option<BloomPass>,
     post: Option<PostPass>,
     color_targets: Option<ColorTargets>,
+    weighted: Option<Weighted>,
     post_targets: Option<PostTargets>,
     /// With the group 0 that reads them.
     prepass_targets: Option<(PrepassTargets, wgpu::BindGroup)>,
@@ -134,6 +137,7 @@ impl Frame {
             bloom: None,
             post: None,
             color_targets: None,
+            weighted: None,
             post_targets: None,
             prepass_targets: None,
             picture: None,
@@ -183,9 +187,14 @@ impl Frame {
         // Light that blooms, and how far it spreads.
         self.encode_glow(r, encoder, stage, take, clock)?;
         // One colour pass: opaque, outlines and transparent share their targets, so samples are resolved once.
-        let mut pass = self.begin_color_pass(r, encoder, take, clock);
+        let has_weighted = has_weighted(stage, take);
+        let mut pass = self.begin_color_pass(r, encoder, take, has_weighted, clock);
         self.record_surfaces(r, &mut pass, stage, take, &pipelines)?;
         drop(pass);
+        // Layers that need no order, over all of it.
+        if has_weighted {
+            self.encode_weighted(r, encoder, stage, take, &pipelines);
+        }
         // Bloom, tone curve, background, smooth edges.
         self.encode_post(encoder, take, clock);
         Ok(())
@@ -269,6 +278,9 @@ impl Frame {
                 self.color_targets = Some(ColorTargets::new(&gpu, view.size, r.output));
             }
             None => {}
+        }
+        if has_weighted(stage, take) {
+            Weighted::fit(&mut self.weighted, r, view.size, picture.output)?;
         }
         let has_surfaces = has_surfaces(stage);
         let fits = |t: &PrepassTargets| t.size == view.size && (t.has_surfaces || !has_surfaces);
@@ -392,54 +404,98 @@ impl Frame {
         r: &Renderer,
         encoder: &'a mut wgpu::CommandEncoder,
         take: &Take<'_>,
+        goes_on: bool,
         clock: &Clock,
     ) -> wgpu::RenderPass<'a> {
         let Take { view, target, shown, post, .. } = *take;
         use wgpu::{LoadOp, Operations, StoreOp};
         let post = self.post_targets.as_ref().filter(|_| post.is_some());
-        let own = post.map_or(self.color_targets.as_ref(), |p| Some(&p.color));
-        let color = post.map_or(target.color, |p| &p.picture);
+        let Into { color, multisampled, depth, keeps_depth } = self.into(take);
         let clear = match shown {
             // The background comes last.
             _ if post.is_some() => wgpu::Color::TRANSPARENT,
             Shown::Channel(_) => Background::Color(Srgb([0; 3])).clear_color(r.output),
             _ => view.background.clear_color(r.output),
         };
-        // A host resolves its samples itself.
-        let resolves = target.depth.is_none() || post.is_some();
-        let multisampled = own.filter(|_| resolves).and_then(|t| t.multisampled.as_ref());
         let load = if target.keeps_color && post.is_none() {
             LoadOp::Load
         } else {
             LoadOp::Clear(clear)
         };
-        // Samples that are resolved need not be kept; what is a host's is.
-        let store = if multisampled.is_some() {
-            StoreOp::Discard
-        } else {
-            StoreOp::Store
+        // Samples that are resolved need not be kept; what is a host's is, and what another pass goes on with.
+        let kept = |is_kept| {
+            if is_kept || goes_on {
+                StoreOp::Store
+            } else {
+                StoreOp::Discard
+            }
         };
-        let depth = target.depth.map(|depth| (depth, LoadOp::Load, StoreOp::Store));
-        let depth = depth.or_else(|| own.map(|t| (&t.depth, LoadOp::Clear(0.0), StoreOp::Discard)));
-        let has_stencil = r.output.depth_format(r.gpu()).has_stencil_aspect();
-        // Whatever a host's stencil holds, marks begin with none.
-        let stencil = Operations { load: LoadOp::Clear(0), store: StoreOp::Discard };
+        let store = kept(multisampled.is_none());
+        let depth = depth.map(|depth| {
+            let load = if keeps_depth { LoadOp::Load } else { LoadOp::Clear(0.0) };
+            depth_attachment(r, depth, load, kept(keeps_depth))
+        });
         encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("colour"),
             color_attachments: &[Some(wgpu::RenderPassColorAttachment {
                 view: multisampled.unwrap_or(color),
                 depth_slice: None,
-                resolve_target: multisampled.map(|_| color),
+                resolve_target: multisampled.filter(|_| !goes_on).map(|_| color),
                 ops: Operations { load, store },
             })],
-            depth_stencil_attachment: depth.map(|(view, load, store)| wgpu::RenderPassDepthStencilAttachment {
-                view,
-                depth_ops: Some(Operations { load, store }),
-                stencil_ops: has_stencil.then_some(stencil),
-            }),
+            depth_stencil_attachment: depth,
             timestamp_writes: clock.render(Timed::Color),
             ..Default::default()
         })
+    }
+
+    /// What the colour pass of a view draws into.
+    fn into<'a>(&'a self, take: &Take<'a>) -> Into<'a> {
+        let Take { target, post, .. } = *take;
+        let post = self.post_targets.as_ref().filter(|_| post.is_some());
+        let own = post.map_or(self.color_targets.as_ref(), |p| Some(&p.color));
+        // A host resolves its samples itself.
+        let resolves = target.depth.is_none() || post.is_some();
+        Into {
+            color: post.map_or(target.color, |p| &p.picture),
+            multisampled: own.filter(|_| resolves).and_then(|t| t.multisampled.as_ref()),
+            depth: target.depth.or_else(|| own.map(|t| &t.depth)),
+            keeps_depth: target.depth.is_some(),
+        }
+    }
+
+    /// Sums weighted layers and lays them over the picture.
+    fn encode_weighted(
+        &self,
+        r: &Renderer,
+        encoder: &mut wgpu::CommandEncoder,
+        stage: &Stage,
+        take: &Take<'_>,
+        pipelines: &[Drawables],
+    ) {
+        use wgpu::{LoadOp, Operations, StoreOp};
+        let frame = self.color_frame_group(stage, take.post);
+        let (Some(actors), Some(weighted)) = (actors(stage, frame, take.view.first_person), &self.weighted) else {
+            return;
+        };
+        let Into { color, multisampled, depth, .. } = self.into(take);
+        let depth = depth.map(|depth| depth_attachment(r, depth, LoadOp::Load, StoreOp::Store));
+        let BlendedList { draws, list, instances } = &self.blended;
+        let actors = Actors { list, instances, ..actors };
+        weighted::encode(encoder, &weighted.targets, depth, &actors, pipelines, draws);
+        let store = if multisampled.is_some() {
+            StoreOp::Discard
+        } else {
+            StoreOp::Store
+        };
+        let over = wgpu::RenderPassColorAttachment {
+            view: multisampled.unwrap_or(color),
+            depth_slice: None,
+            resolve_target: multisampled.map(|_| color),
+            ops: Operations { load: LoadOp::Load, store },
+        };
+        let mut pass = targets::begin(encoder, "resolve", Some(over), None, None);
+        weighted.resolve.encode(&mut pass, &weighted.group);
     }
 
     /// Group 0 of the colour pass: with what the prepass drew where a material reads it.
@@ -537,6 +593,62 @@ fn has_prepass(stage: &Stage, post: Option<Post>) -> bool {
 /// Whether something on it reads normals and parts.
 fn has_surfaces(stage: &Stage) -> bool {
     stage.bodies.troupes.iter().any(|troupe| troupe.data().has_inner_lines)
+}
+
+/// Whether something on it is weighted.
+fn has_weighted(stage: &Stage, take: &Take<'_>) -> bool {
+    let is_floor = matches!(take.shown, Shown::Floor(_));
+    !is_floor && stage.bodies.troupes.iter().any(|troupe| troupe.data().has_weighted)
+}
+
+/// Depth and stencil of passes of the picture. Whatever a host's stencil holds, marks begin with none.
+fn depth_attachment<'a>(
+    r: &Renderer,
+    view: &'a wgpu::TextureView,
+    load: wgpu::LoadOp<f32>,
+    store: wgpu::StoreOp,
+) -> wgpu::RenderPassDepthStencilAttachment<'a> {
+    let stencil = wgpu::Operations { load: wgpu::LoadOp::Clear(0), store: wgpu::StoreOp::Discard };
+    let has_stencil = r.output.depth_format(r.gpu()).has_stencil_aspect();
+    wgpu::RenderPassDepthStencilAttachment {
+        view,
+        depth_ops: Some(wgpu::Operations { load, store }),
+        stencil_ops: has_stencil.then_some(stencil),
+    }
+}
+
+/// What a colour pass draws into.
+struct Into<'a> {
+    color: &'a wgpu::TextureView,
+    /// Samples that are resolved into the colour.
+    multisampled: Option<&'a wgpu::TextureView>,
+    depth: Option<&'a wgpu::TextureView>,
+    /// Whether the depth is a host's.
+    keeps_depth: bool,
+}
+
+/// What weighted layers of a frame are drawn into, and how they get into the picture.
+#[derive(Debug)]
+struct Weighted {
+    targets: WeightedTargets,
+    resolve: ResolvePass,
+    group: wgpu::BindGroup,
+}
+
+impl Weighted {
+    /// Makes it where there is none of this size and format.
+    fn fit(made: &mut Option<Self>, r: &Renderer, size: [u32; 2], output: Output) -> Result<()> {
+        if made.as_ref().is_some_and(|w| w.targets.size == size && w.resolve.is_for(output.format)) {
+            return Ok(());
+        }
+        let resolve = match made.take() {
+            Some(known) if known.resolve.is_for(output.format) => known.resolve,
+            _ => ResolvePass::new(&r.variants, output)?,
+        };
+        let targets = WeightedTargets::new(r.gpu(), size, output.samples);
+        *made = Some(Self { group: resolve.group(r.gpu(), &targets), targets, resolve });
+        Ok(())
+    }
 }
 
 /// What a frame that is finished by [`PostPass`] is drawn into; settings that are numbers do not count.

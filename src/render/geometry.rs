@@ -11,7 +11,7 @@ use super::{
 };
 use crate::{
     hair::{self, NoStrips},
-    material::AlphaMode,
+    material::{AlphaMode, Blending},
     scene::{FirstPerson, HumanBone, Influences, MorphTarget, Primitive, Role, Scene, Skin},
 };
 
@@ -30,6 +30,8 @@ pub(crate) struct Rig {
     /// Middles and radii of spheres round its eyes and brows and round its hair at rest, character space; `None` where the ones
     /// are not seen through the other.
     pub eyes_and_hair: Option<[(Vec3, f32); 2]>,
+    /// Middle and radius of the sphere that weighted layers are weighed over, at rest, character space.
+    pub weighed: Option<(Vec3, f32)>,
     /// Least and greatest corner of all vertices at rest, character space; empty without a vertex.
     pub bounds: Option<(Vec3, Vec3)>,
     /// Middle and radius of a sphere round what each joint moves, mesh space; in the order of the joints.
@@ -170,6 +172,7 @@ impl Geometry {
         geometry.rig.moved = moved.map(|b| b.map(sphere)).collect();
         geometry.part_materials = materials_by_id;
         geometry.rig.eyes_and_hair = eyes_and_hair(scene, &geometry.parts);
+        geometry.rig.weighed = weighed(scene, &geometry.parts);
         geometry.vertex_refs.push([0, geometry.morphs.len() as u32]);
         geometry
     }
@@ -326,6 +329,19 @@ fn eyes_and_hair(scene: &Scene, parts: &[Part]) -> Option<[(Vec3, f32); 2]> {
         low.cmple(high).all().then(|| ((low + high) * 0.5, (high - low).length() * 0.5 + swing))
     };
     Some([sphere(Mark::Eyes)?, sphere(Mark::Hair)?])
+}
+
+/// The sphere that weighted layers are weighed over: the head, or where there is none, what is weighted, half as large as the
+/// middle one of its sides, for long hair hangs far below its head.
+fn weighed(scene: &Scene, parts: &[Part]) -> Option<(Vec3, f32)> {
+    let is_weighted = |p: &&Part| scene.materials.get(p.material).is_some_and(|m| m.blending() == Blending::Weighted);
+    let bounds = parts.iter().filter(is_weighted).map(|p| p.bounds).filter(|(low, high)| low.cmple(*high).all());
+    let (low, high) = bounds.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))?;
+    // Hair stands a fifth wider than the face.
+    let head = scene.face_box(None).map(|(low, high)| ((low + high) * 0.5, (high - low).max_element() * 0.6));
+    let sides = high - low;
+    let middle_side = sides.element_sum() - sides.max_element() - sides.min_element();
+    Some(head.unwrap_or(((low + high) * 0.5, middle_side * 0.5)))
 }
 
 /// Reads sparse morph targets in vertex order.

@@ -51,6 +51,7 @@ pub(crate) fn put_view(gpu: &mut Block<'_>, view: &View, stage: &Stage) {
     gpu.put("host_depth", [a, b / camera.near]);
     gpu.put("px_per_m", view.px_per_m(stage.places()));
     gpu.put("number", view.frame);
+    gpu.put("nearest_weighed", nearest_weighed(view_from_world, stage).max(camera.near));
     gpu.put("punctual", punctual);
     let environment = lights.environment.as_ref();
     let (strength, turn_rad) = environment.map_or((1.0, 0.0), |e| (e.strength, e.turn_rad));
@@ -59,6 +60,13 @@ pub(crate) fn put_view(gpu: &mut Block<'_>, view: &View, stage: &Stage) {
     gpu.put("environment_turn", [turn_rad.cos(), turn_rad.sin()]);
     gpu.put("environment_strength", strength);
     gpu.put("environment_level", environment.map_or(-1.0, |_| (LEVELS - 1) as f32));
+}
+
+/// Distance along a view of the nearest sphere of weighted layers; far away where there is none.
+fn nearest_weighed(view_from_world: Mat4, stage: &Stage) -> f32 {
+    let middles =
+        stage.bodies.list.iter().filter_map(|body| body.weighed().map(|sphere| body.world.transform_point3(sphere.0)));
+    middles.map(|middle| -view_from_world.transform_point3(middle).z).fold(f32::MAX, f32::min)
 }
 
 /// A `PunctualLight`: three rows of a vector and a number.
@@ -82,6 +90,8 @@ pub(crate) struct ActorState<'a> {
     pub bangs: Option<&'a BangsFit>,
     pub tile: BangsTile,
     pub through: Option<EyesThrough>,
+    /// Middle and radius of the sphere that weighted layers are weighed over, character space.
+    pub weighed: Option<(Vec3, f32)>,
     /// In her space.
     pub to_light: Vec3,
     pub from_world: Mat4,
@@ -99,6 +109,7 @@ impl ActorState<'_> {
             bangs: None,
             tile: BangsTile::default(),
             through: None,
+            weighed: None,
             to_light: Vec3::Z,
             from_world: Mat4::IDENTITY,
             shadow,
@@ -134,6 +145,9 @@ pub(crate) fn put_actor(gpu: &mut Block<'_>, of: &ActorState<'_>) {
     gpu.put("through_fade_yaw", through.map_or([0.0; 2], |t| t.fade_yaw_rad));
     gpu.put("through_fade_pitch", through.map_or([0.0; 2], |t| t.fade_pitch_rad));
     gpu.put("head", head.transform_point3(of.head_middle).to_array());
+    let (middle, radius) = of.weighed.unwrap_or((Vec3::ZERO, 0.0));
+    gpu.put("weigh_middle", middle.to_array());
+    gpu.put("weigh_radius", radius / of.from_world.x_axis.truncate().length().max(1e-9));
     gpu.put("shadow_right", shadow.right.to_array());
     gpu.put("shadow_scale", shadow.scale);
     gpu.put("shadow_up", shadow.up.to_array());

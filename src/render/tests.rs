@@ -13,7 +13,7 @@ use super::material::{Composition, bytes};
 use super::pass::{DEPTH_FORMAT, Mark, Picture, Sight, bangs_shadow, glow, prepass, shadow};
 use super::shaders::{Recipe, Shaders};
 use super::variants::Request;
-use crate::material::{About, Alpha, AlphaMode, Field, Kind, LISTED, Material, Shading, Surroundings};
+use crate::material::{About, Alpha, AlphaMode, Blending, Field, Kind, LISTED, Material, Shading, Surroundings};
 use crate::motion::Driven;
 use crate::sdf::FaceMap;
 
@@ -94,6 +94,8 @@ fn requests(shaders: &Shaders, material: &Material, colors: bool, channel: Optio
         center: glam::Vec3::ZERO,
         has_vertex_colors: colors,
         blend: material.alpha.mode == AlphaMode::Blend,
+        core: material.has_core(),
+        weighted: material.blending() == Blending::Weighted,
         write_depth: true,
         queue_offset: 0,
         casts_on_face: true,
@@ -145,6 +147,11 @@ fn every_section_alone_links_in_every_pass() {
         let mut hashed = material.clone();
         hashed.alpha.hashed = true;
         materials.push((hashed, None));
+        for blending in [Blending::ThreePass, Blending::DoubleLayer, Blending::Weighted] {
+            let mut layered = material_with(&[about], true, AlphaMode::Blend);
+            layered.alpha.blending = blending;
+            materials.push((layered, None));
+        }
         materials.push((Material { shading: Shading::Unlit, ..material }, None));
     }
     validate_all(&shaders, &materials);
@@ -169,6 +176,8 @@ fn all_sections_that_go_together_link_in_every_pass() {
             for is_whole in [false, true] {
                 let material = material_with(&kept, is_whole, mode);
                 materials.push((Material { fire: None, ..material.clone() }, None));
+                let alpha = Alpha { blending: Blending::Weighted, ..material.alpha };
+                materials.push((Material { fire: None, alpha, ..material.clone() }, None));
                 materials.push((material, None));
             }
         }
@@ -184,6 +193,10 @@ fn passes_without_a_material_are_valid() {
     let shaders = Shaders::new().expect("sections");
     for pass in ["background", "bangs_near", "bloom", "deform", "environment", "fibre"] {
         validate(&shaders, &Recipe::plain(pass));
+    }
+    for (several, encodes) in [(false, false), (true, false), (false, true), (true, true)] {
+        let recipe = Recipe::plain("resolve").with("multisampled", several).with("encode_srgb", encodes);
+        validate(&shaders, &recipe);
     }
     for (encodes, smooths) in [(false, false), (true, false), (false, true), (true, true)] {
         validate(&shaders, &Recipe::plain("post").with("encode_srgb", encodes).with("antialias", smooths));

@@ -162,6 +162,7 @@ impl Renderer {
             geometry: OnceLock::new(),
             through_order: through_order(&draws),
             has_blended: draws.iter().any(|draw| draw.blend),
+            has_weighted: draws.iter().any(|draw| draw.weighted),
             world_shadows: OnceLock::new(),
             glows: OnceLock::new(),
             draws,

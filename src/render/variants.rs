@@ -17,7 +17,7 @@ pub(crate) struct State {
     pub cull: Option<wgpu::Face>,
     pub depth: Option<wgpu::DepthStencilState>,
     pub samples: u32,
-    pub target: Option<wgpu::ColorTargetState>,
+    pub targets: Vec<wgpu::ColorTargetState>,
 }
 
 /// What a draw asks for.
@@ -116,6 +116,7 @@ impl Variants {
 
     fn make(&self, request: &Request, linked: &Linked) -> Result<Variant> {
         let Request { recipe, state } = request;
+        let targets: Vec<_> = state.targets.iter().cloned().map(Some).collect();
         // Error scopes belong to threads.
         self.gpu.scoped(|| {
             let module = self.module(recipe.pass, linked);
@@ -136,7 +137,7 @@ impl Variants {
                     module: &module,
                     entry_point: Some("fs_main"),
                     compilation_options: wgpu::PipelineCompilationOptions::default(),
-                    targets: state.target.clone().map(Some).as_slice(),
+                    targets: &targets,
                 }),
                 multiview_mask: None,
                 cache: None,

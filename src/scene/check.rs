@@ -78,7 +78,8 @@ impl Primitive {
         for (name, found) in optional.into_iter().chain(uvs).filter(|(_, found)| *found > 0) {
             length(&format!("{of}.{name}"), found, count)?;
         }
-        let is_odd = |s: &[f32; 3]| (glam::Vec3::from(*s).length() - 1.0).abs() > 1e-2 || !glam::Vec3::from(*s).is_finite();
+        let is_odd =
+            |s: &[f32; 3]| (glam::Vec3::from(*s).length() - 1.0).abs() > 1e-2 || !glam::Vec3::from(*s).is_finite();
         if let Some(at) = self.strands.iter().position(is_odd) {
             return fault(format!("{of}.strands[{at}]"), "is no unit vector".to_owned());
         }

@@ -196,6 +196,12 @@ impl Body {
         )
     }
 
+    /// Middle and radius of the sphere that its weighted layers are weighed over, character space.
+    pub fn weighed(&self) -> Option<(Vec3, f32)> {
+        let (middle, radius) = self.data().rig.weighed?;
+        Some((self.head.transform_point3(middle), radius))
+    }
+
     /// Where the light of the shadow on its face comes from.
     pub(super) fn face_light(&self, to_light: Vec3) -> Option<FaceLight> {
         let fit = self.data().bangs.as_ref()?;
@@ -229,6 +235,7 @@ impl Body {
             bangs: data.bangs.as_ref(),
             tile: troupes[self.troupe].bangs.as_ref().map(|atlas| atlas.place(self.slot)).unwrap_or_default(),
             through: data.scene.eyes_through,
+            weighed: self.weighed(),
             to_light: from_world.transform_vector3(to_light).normalize_or(Vec3::Z),
             from_world,
             shadow: self.shadow_layer.and_then(own).unwrap_or(of_world),

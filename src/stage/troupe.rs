@@ -140,8 +140,8 @@ impl Troupe {
         }
     }
 
-    /// Draws that are not blended.
+    /// Draws that are not blended, or not whole.
     pub fn solid_draws(&self) -> impl Iterator<Item = (usize, &Draw)> {
-        self.data().draws.iter().enumerate().filter(|(_, draw)| !draw.blend)
+        self.data().draws.iter().enumerate().filter(|(_, draw)| draw.is_solid())
     }
 }

@@ -2,7 +2,7 @@
 
 use glam::{Mat4, Vec3};
 use hikage::color::Srgb;
-use hikage::material::{Base, Material, Outline, OutlineWidth, Shading};
+use hikage::material::{Alpha, AlphaMode, Base, Blending, Material, Outline, OutlineWidth, Shading};
 use hikage::scene::{Antialias, Bloom, Framing, Post, Scene, ToneCurve};
 use hikage::{Actor, Background, Error, Far, Gpu, HostDepth, Output, Renderer, Stage, Target, View};
 
@@ -232,7 +232,11 @@ impl Lens {
 }
 
 fn actors(renderer: &Renderer, with_cube: bool) -> Stage {
-    let ball = renderer.upload(&ball()).expect("an upload");
+    actors_of(renderer, &ball(), with_cube)
+}
+
+fn actors_of(renderer: &Renderer, ball: &Scene, with_cube: bool) -> Stage {
+    let ball = renderer.upload(ball).expect("an upload");
     let mut actors = vec![Actor::new(&ball).at([-0.1, 0.1, 0.5], 0.0), Actor::new(&ball).at([0.15, -0.1, -0.6], 0.0)];
     if with_cube {
         actors.push(Actor::new(&renderer.upload(&cube_inside()).expect("an upload")));
@@ -298,6 +302,65 @@ fn a_hosts_cube_hides_and_is_hidden_as_one_drawn_inside() {
                 off <= most,
                 "{format:?}, {samples} samples, {lens:?}, {:?}, cube first {cube_first}: {off} bytes differ",
                 output.depth
+            );
+        }
+    }
+}
+
+/// A ball of three skins: a core in the lower half, what is seen through above it.
+fn skins(blending: Blending) -> Scene {
+    let parts = [0.3, 0.25, 0.2].map(|radius| {
+        let mut skin = sphere(radius, 24, 48);
+        skin.colors =
+            skin.uvs[0].iter().map(|uv| [1.0 - uv[1], radius, uv[1], if uv[1] > 0.6 { 1.0 } else { 0.5 }]).collect();
+        let alpha = Alpha { mode: AlphaMode::Blend, blending, ..Alpha::default() };
+        (skin, Material { alpha, shading: Shading::Unlit, double_sided: true, ..Material::default() })
+    });
+    scene(parts.into())
+}
+
+#[test]
+fn layers_are_in_a_hosts_frame_what_they_are_alone() {
+    use wgpu::TextureFormat as F;
+    let gpu = gpu();
+    let own_view = View { background: Background::Color(Srgb([0x80; 3])), ..shot().view() };
+    for blending in [Blending::ThreePass, Blending::DoubleLayer, Blending::Weighted] {
+        for (samples, depth, lens, post) in [
+            (4, F::Depth32Float, Lens::Camera, false),
+            (1, F::Depth24Plus, Lens::Planes(Far::One), false),
+            (4, F::Depth24PlusStencil8, Lens::Planes(Far::One), false),
+            (4, F::Depth32Float, Lens::Planes(Far::Zero), true),
+            (1, F::Depth32Float, Lens::Camera, true),
+        ] {
+            let (view, clip_from_world) = lens.of(&own_view);
+            let plain = Post { bloom: None, tone: ToneCurve::None, antialias: false };
+            let own = Renderer::with_output(&gpu, Output { samples, ..Output::default() }).expect("a renderer");
+            let mut stage = actors_of(&own, &skins(blending), true);
+            stage.post = post.then_some(plain);
+            let expected = own.render(&mut stage, &view).expect("a picture").pixels;
+
+            let output =
+                Output { samples, depth: Some(HostDepth { format: depth, far: lens.far() }), ..Output::default() };
+            let renderer = Renderer::with_output(&gpu, output).expect("a renderer");
+            let mut stage = actors_of(&renderer, &skins(blending), false);
+            stage.post = post.then_some(plain);
+            let host = Host::new(&gpu, output, view.size, clip_from_world);
+            let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+            host.draw(&mut encoder, true, true, false);
+            renderer.prepare(&mut encoder, &mut stage).expect("a stage");
+            let [color, depth_view, _] = host.views();
+            let target = Target { color: &color, keeps_color: true, depth: Some(&depth_view) };
+            renderer.draw(&mut encoder, &stage, &view, target).expect("a view");
+            host.draw(&mut encoder, false, false, true);
+            gpu.queue.submit([encoder.finish()]);
+            let found = texels(&gpu, host.finished());
+            // Where samples cross, depths of fewer bits fall on either side.
+            let off = expected.iter().zip(&found).filter(|(a, b)| a.abs_diff(**b) > 2).count();
+            // A finished picture is resolved before it is laid over the cube.
+            let most = if post && samples == 4 { 500 } else { 24 };
+            assert!(
+                off <= most,
+                "{blending:?}, {samples} samples, {depth:?}, {lens:?}, post {post}: {off} bytes differ"
             );
         }
     }

@@ -16,6 +16,7 @@ mod first_person;
 mod ground;
 mod host;
 mod laws;
+mod layers;
 mod limits;
 mod oracles;
 mod own_look;

@@ -54,7 +54,8 @@ fn a_card_runs_from_the_head_to_its_tip() {
         assert!(Vec3::from(*d).dot(Vec3::NEG_Y) > 0.9999, "vertex {v}: {d:?}");
     }
     // From below, the other end is the root.
-    let below = HairStrips::of(&card([0.0, 2.0, 0.0], 0.02, 0.4, 16), Mat4::IDENTITY, Some(Vec3::ZERO)).expect("strips");
+    let below =
+        HairStrips::of(&card([0.0, 2.0, 0.0], 0.02, 0.4, 16), Mat4::IDENTITY, Some(Vec3::ZERO)).expect("strips");
     assert!((below.along[0] - 1.0).abs() < 1e-3 && below.directions[0][1] > 0.99);
     // Where the texture says nothing, the way along the surface does.
     let mut bare = card([0.0, 2.0, 0.0], 0.02, 0.4, 16);

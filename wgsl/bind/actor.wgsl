@@ -33,6 +33,9 @@ struct Actor {
     through_fade_pitch: vec2f,
     // Middle of the head, character space.
     head: vec3f,
+    // Radius of the sphere that weighted layers are weighed over, world, metres; and its middle, character space.
+    weigh_radius: f32,
+    weigh_middle: vec3f,
     // Axes of the shadow map in the world, unit, and one over its width, metres.
     shadow_right: vec3f,
     shadow_scale: f32,

@@ -35,6 +35,8 @@ struct Frame {
     px_per_m: f32,
     // Of the picture among those that are averaged.
     number: u32,
+    // Distance along the view of the nearest sphere of weighted layers, metres.
+    nearest_weighed: f32,
     // Depth of a host is x + y * near / distance.
     host_depth: vec2f,
     punctual: array<PunctualLight, 4>,

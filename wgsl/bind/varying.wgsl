@@ -26,6 +26,9 @@ struct Varying {
     @if(nose) @location(9) @interpolate(flat) nose: f32,
     // Height of a shell above the root, share of the length.
     @if(level) @location(10) @interpolate(flat) level: f32,
+    // Of weighted layers, where there is no shell: distance of the middle of what is weighted, its radius, and how near it is
+    // among all of them.
+    @if(weighed) @location(10) @interpolate(flat) weigh: vec3f,
     // How much is seen through hair.
     @if(opacity) @location(11) @interpolate(flat) opacity: f32,
     @if(part) @location(12) @interpolate(flat) part: u32,

@@ -12,6 +12,8 @@ struct Base {
     alpha_cutoff: f32,
     // Size of the texture coordinates, metres.
     hash_m: vec2f,
+    // Alpha below which nothing is blended.
+    least_alpha: f32,
     texture_uv: UvTransform,
 }
 

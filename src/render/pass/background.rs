@@ -57,6 +57,7 @@ impl BackgroundPass {
         let drawing = Drawing { cull: None, blend: false, write_depth: false, mark: Mark::None };
         let Request { recipe, state } = picture.request(Recipe::plain("background"), drawing);
         let module = variants.plain_module(&recipe)?;
+        let targets: Vec<_> = state.targets.into_iter().map(Some).collect();
         let depth = state.depth.map(|d| wgpu::DepthStencilState {
             // Nothing is behind it and nothing has been drawn.
             depth_compare: Some(wgpu::CompareFunction::Always),
@@ -78,7 +79,7 @@ impl BackgroundPass {
                 module: &module,
                 entry_point: Some("fs_main"),
                 compilation_options: wgpu::PipelineCompilationOptions::default(),
-                targets: &[state.target],
+                targets: &targets,
             }),
             multiview_mask: None,
             cache: None,

@@ -32,7 +32,7 @@ pub(crate) fn request(of: &Composition, material: &Material, colors: bool) -> Re
         .with("blend", of.alpha == AlphaMode::Blend)
         .with("alpha_mask", of.alpha == AlphaMode::Mask);
     let target = wgpu::ColorTargetState { format: HDR_FORMAT, blend: Some(ADD), write_mask: wgpu::ColorWrites::ALL };
-    Request { recipe, state: State { cull: surface_cull(material), depth: None, samples: 1, target: Some(target) } }
+    Request { recipe, state: State { cull: surface_cull(material), depth: None, samples: 1, targets: vec![target] } }
 }
 
 /// Draws the light.

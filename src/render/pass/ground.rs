@@ -98,6 +98,7 @@ impl GroundPass {
         // It hides what is below it, unless it is but a shadow.
         let drawing = Drawing { cull: None, blend: true, write_depth: !kind.shadow_only, mark: Mark::None };
         let Request { recipe, state } = picture.request(recipe, drawing);
+        let targets: Vec<_> = state.targets.into_iter().map(Some).collect();
         let module = variants.plain_module(&recipe)?;
         let made = variants.gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some("ground"),
@@ -119,7 +120,7 @@ impl GroundPass {
                 module: &module,
                 entry_point: Some("fs_main"),
                 compilation_options: wgpu::PipelineCompilationOptions::default(),
-                targets: &[state.target],
+                targets: &targets,
             }),
             multiview_mask: None,
             cache: None,

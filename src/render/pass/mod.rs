@@ -15,13 +15,16 @@ pub(crate) mod opaque;
 pub(crate) mod outline;
 pub(crate) mod post;
 pub(crate) mod prepass;
+pub(crate) mod resolve;
 pub(crate) mod shadow;
 pub(crate) mod transparent;
+pub(crate) mod weighted;
 
 use super::shaders::Recipe;
 use super::variants::{Request, State};
 use super::{Far, Output};
-use crate::{Gpu, material::Material};
+use crate::Gpu;
+use crate::material::{Blending, Material};
 
 /// Depth format of the prepass; of the colour pass where the device has no stencil beside 32 bits of depth.
 pub(crate) const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
@@ -127,13 +130,9 @@ impl<'a> Picture<'a> {
             recipe = recipe.with("channel", true).with(&format!("channel_{}", channel.replace('-', "_")), true);
         }
         let Drawing { cull, blend, write_depth, mark } = drawn;
-        let nearer = match self.output.depth.map_or(Far::Zero, |depth| depth.far) {
-            Far::Zero => wgpu::CompareFunction::GreaterEqual,
-            Far::One => wgpu::CompareFunction::LessEqual,
-        };
         let depth = wgpu::DepthStencilState {
             format: self.depth_format,
-            depth_compare: Some(nearer),
+            depth_compare: Some(self.nearer(false)),
             stencil: mark.stencil(),
             ..depth_state(write_depth)
         };
@@ -142,8 +141,28 @@ impl<'a> Picture<'a> {
             blend: blend.then_some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
             write_mask: wgpu::ColorWrites::ALL,
         };
-        let state = State { cull, depth: Some(depth), samples: self.output.samples, target: Some(target) };
+        let state = State { cull, depth: Some(depth), samples: self.output.samples, targets: vec![target] };
         Request { recipe, state }
+    }
+
+    /// The depth test; a strict one leaves what is as near.
+    fn nearer(&self, strict: bool) -> wgpu::CompareFunction {
+        use wgpu::CompareFunction as C;
+        match (self.output.depth.map_or(Far::Zero, |depth| depth.far), strict) {
+            (Far::Zero, false) => C::GreaterEqual,
+            (Far::Zero, true) => C::Greater,
+            (Far::One, false) => C::LessEqual,
+            (Far::One, true) => C::Less,
+        }
+    }
+
+    /// The request of a pass that draws surfaces only where they are nearer than what is there.
+    pub fn strict_request(&self, recipe: Recipe, drawn: Drawing) -> Request {
+        let mut request = self.request(recipe, drawn);
+        if let Some(depth) = &mut request.state.depth {
+            depth.depth_compare = Some(self.nearer(true));
+        }
+        request
     }
 
     /// Whether a cut or a fade can cover part of a pixel.
@@ -163,8 +182,8 @@ pub(crate) struct Drawing {
 /// A request of a pass that draws depth from a light.
 pub(crate) fn map_request(recipe: Recipe, slope_scale: f32, target: Option<wgpu::TextureFormat>) -> Request {
     // Cards have no back.
-    let state =
-        State { cull: None, depth: Some(map_depth_state(slope_scale)), samples: 1, target: target.map(Into::into) };
+    let targets = target.map(Into::into).into_iter().collect();
+    let state = State { cull: None, depth: Some(map_depth_state(slope_scale)), samples: 1, targets };
     Request { recipe, state }
 }
 
@@ -202,7 +221,8 @@ pub(crate) fn depth_state(write: bool) -> wgpu::DepthStencilState {
 
 /// Culling of a surface.
 pub(crate) fn surface_cull(material: &Material) -> Option<wgpu::Face> {
-    (!material.double_sided).then_some(wgpu::Face::Back)
+    let has_back = material.double_sided || material.blending() == Blending::ThreePass;
+    (!has_back).then_some(wgpu::Face::Back)
 }
 
 /// Whether the shader must encode sRGB because the target does not. Floats stay linear.

@@ -1,4 +1,4 @@
-//! Opaque and alpha-masked surfaces.
+//! Opaque and alpha-masked surfaces, and the opaque part of blended ones.
 
 use super::{Drawing, Mark, Picture, surface_cull};
 use crate::material::{AlphaMode, Material};
@@ -44,7 +44,8 @@ pub(crate) fn encode(pass: &mut wgpu::RenderPass<'_>, actors: &Actors<'_>, shown
                     pass.set_stencil_reference(mark.reference(*number));
                 }
                 for (i, draw) in draws() {
-                    actors.record(pass, troupe, draw.triangles(), &shown[i].surface, instances.clone());
+                    let drawn = shown[i].core.as_ref().unwrap_or(&shown[i].surface);
+                    actors.record(pass, troupe, draw.triangles(), drawn, instances.clone());
                 }
             }
         }

@@ -45,7 +45,7 @@ pub(crate) fn request(picture: &Picture<'_>, of: &Composition, material: &Materi
 pub(crate) fn encode(pass: &mut wgpu::RenderPass<'_>, actors: &Actors<'_>, shown: &[Shown]) {
     for (troupe, shown) in actors.shown(shown) {
         actors.bind(pass, troupe);
-        for (i, draw) in troupe.solid_draws() {
+        for (i, draw) in troupe.solid_draws().filter(|(_, draw)| !draw.blend) {
             if let Some(outline) = &shown[i].outline {
                 actors.record(pass, troupe, draw.triangles(), outline, troupe.instances.clone());
             }

@@ -23,10 +23,10 @@ pub(crate) struct PrepassInputs<'a> {
 /// What draws a material; without `surfaces`, normal and part are left out.
 pub(crate) fn request(of: &Composition, material: &Material, colors: bool, surfaces: bool) -> Request {
     let recipe = of.cut("prepass", colors, true).with("seen", true).with("part", surfaces).with("normal", surfaces);
-    let target = surfaces.then(|| SURFACES_FORMAT.into());
+    let targets = surfaces.then(|| SURFACES_FORMAT.into()).into_iter().collect();
     Request {
         recipe,
-        state: State { cull: surface_cull(material), depth: Some(depth_state(true)), samples: 1, target },
+        state: State { cull: surface_cull(material), depth: Some(depth_state(true)), samples: 1, targets },
     }
 }
 

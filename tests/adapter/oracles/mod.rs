@@ -8,6 +8,7 @@ mod face;
 mod hair;
 mod mtoon;
 mod stylized;
+mod weighted;
 
 use std::path::PathBuf;
 
