@@ -10,7 +10,7 @@ use toml::{Table, Value};
 use super::Output;
 use super::draw_list::surface_requests;
 use super::material::{Composition, bytes};
-use super::pass::{DEPTH_FORMAT, Mark, Picture, Sight, bangs_shadow, glow, prepass, shadow};
+use super::pass::{DEPTH_FORMAT, Mark, Picture, Sight, bangs_shadow, glow, prepass, shadow, velocity};
 use super::shaders::{Recipe, Shaders};
 use super::variants::Request;
 use crate::material::{About, Alpha, AlphaMode, Field, Kind, LISTED, Material, Shading, Surroundings};
@@ -104,6 +104,7 @@ fn requests(shaders: &Shaders, material: &Material, colors: bool, channel: Optio
     list.extend(of.has("glow").then(|| glow::request(&of, material, colors)));
     list.push(shadow::request(&of, colors));
     list.push(bangs_shadow::request(&of, colors));
+    list.push(velocity::request(&of, material, colors));
     list.extend([true, false].map(|surfaces| prepass::request(&of, material, colors, surfaces)));
     list
 }
@@ -174,7 +175,7 @@ fn all_sections_that_go_together_link_in_every_pass() {
 #[test]
 fn passes_without_a_material_are_valid() {
     let shaders = Shaders::new().expect("sections");
-    for pass in ["deform", "bangs_near", "bloom"] {
+    for pass in ["deform", "bangs_near", "bloom", "temporal"] {
         validate(&shaders, &Recipe::plain(pass));
     }
     for (encodes, smooths) in [(false, false), (true, false), (false, true), (true, true)] {

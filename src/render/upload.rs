@@ -157,6 +157,7 @@ impl Renderer {
             has_blended: draws.iter().any(|draw| draw.blend),
             world_shadows: OnceLock::new(),
             glows: OnceLock::new(),
+            velocities: OnceLock::new(),
             draws,
             bangs,
             shadow,

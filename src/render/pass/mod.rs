@@ -14,7 +14,9 @@ pub(crate) mod outline;
 pub(crate) mod post;
 pub(crate) mod prepass;
 pub(crate) mod shadow;
+pub(crate) mod temporal;
 pub(crate) mod transparent;
+pub(crate) mod velocity;
 
 use super::shaders::Recipe;
 use super::variants::{Request, State};
