@@ -13,7 +13,7 @@ use super::pass::bangs_shadow::BangsFit;
 use super::pass::deform::DeformSource;
 use super::pass::shadow::{self, ShadowFit};
 use super::pass::{Picture, Sight};
-use super::pass::{glow, prepass};
+use super::pass::{glow, prepass, velocity};
 use super::variants::{Bound, Drawn, Request, Variant, Variants};
 use crate::material::Material;
 use crate::scene::Scene;
@@ -54,6 +54,8 @@ pub(crate) struct CharacterData {
     pub world_shadows: OnceLock<Depths>,
     /// What draws the light of each that blooms.
     pub glows: OnceLock<Depths>,
+    /// What draws the movement of each draw that is not blended.
+    pub velocities: OnceLock<Depths>,
     /// Depth, normal and part of every draw, for the channels that show these.
     pub geometry: OnceLock<Vec<Drawn>>,
     /// Eyes and brows that are seen through hair, the foremost first.
@@ -240,6 +242,20 @@ impl CharacterData {
         };
         let made = self.draws.iter().map(drawn).collect::<Result<_>>()?;
         Ok(Arc::clone(self.glows.get_or_init(|| made)))
+    }
+
+    /// What draws the movement of each draw that is not blended.
+    pub fn velocities(&self, variants: &Variants) -> Result<Depths> {
+        if let Some(known) = self.velocities.get() {
+            return Ok(Arc::clone(known));
+        }
+        let drawn = |draw: &Draw| {
+            let (of, material) = (&self.looks.compositions[draw.material], self.material(draw));
+            let request = velocity::request(of, material, draw.has_vertex_colors);
+            Ok(self.bind(&variants.gpu, variants.get(&request)?, draw.material))
+        };
+        let made = self.draws.iter().map(|draw| (!draw.blend).then(|| drawn(draw)).transpose()).collect::<Result<_>>()?;
+        Ok(Arc::clone(self.velocities.get_or_init(|| made)))
     }
 
     /// What draws depth, normal and part of every draw.

@@ -18,9 +18,11 @@ use super::pass::post::{PostInputs, PostPass};
 use super::pass::prepass::{self, PrepassInputs};
 use super::pass::resolve::ResolvePass;
 use super::pass::shadow::{self, ShadowInputs};
+use super::pass::velocity::{self, VelocityInputs};
 use super::pass::weighted::{self, WeightedTargets};
 use super::pass::{HDR_FORMAT, Picture, Sight, eyes_through, fluff, opaque, outline, transparent};
 use super::targets::{self, ColorTargets, PrepassTargets};
+use super::temporal::{Following, Temporal};
 use super::uploads::Uploads;
 use super::{
     Background, Channel, Clock, FRAME_TIMEOUT, Layouts, Output, Renderer, Target, Timed, View, bind, readback,
@@ -45,6 +47,7 @@ pub(super) struct Frame {
     // What few pictures need is made when one does.
     bloom: Option<BloomPass>,
     post: Option<PostPass>,
+    temporal: Option<Temporal>,
     color_targets: Option<ColorTargets>,
     weighted: Option<Weighted>,
     post_targets: Option<PostTargets>,
@@ -113,7 +116,8 @@ impl<'a> Shown<'a> {
     /// How edges are smoothed, where the stage asks for this.
     fn antialias(self, asked: Antialias) -> Antialias {
         match (self, asked) {
-            (Self::Sample, _) => Antialias::None,
+            // What is by itself follows nothing.
+            (Self::Sample, _) | (Self::Still, Antialias::Temporal) => Antialias::None,
             _ => asked,
         }
     }
@@ -136,6 +140,7 @@ impl Frame {
             uniform,
             bloom: None,
             post: None,
+            temporal: None,
             color_targets: None,
             weighted: None,
             post_targets: None,
@@ -157,11 +162,15 @@ impl Frame {
         let gpu = r.gpu().clone();
         self.fit_environment(r, stage)?;
         // Maps are drawn from lights: of the frame they read the time alone.
-        self.send_view(encoder, stage, &View::default());
+        self.send_view(encoder, stage, &View::default(), None);
         let to_light = stage.lights.directional.to_light;
         stage.bodies.send(&gpu, &mut self.uploads, encoder, to_light, stage.ground.as_ref());
+        // Where everybody was, for what moves in a window.
+        let is_asked = stage.post.is_some_and(|post| post.antialias == Antialias::Temporal);
+        stage.bodies.remember(r, &mut self.uploads, encoder, is_asked);
         // Skinned and morphed vertices; only where the pose has changed.
         self.encode_deform(r, encoder, &mut stage.bodies, clock);
+        stage.bodies.settle(encoder);
         if with_maps {
             // What casts on faces, from the light of that shadow, and on everybody from the key light; only where a pose, the
             // light or a place has changed.
@@ -179,11 +188,13 @@ impl Frame {
         take: &Take<'_>,
         clock: &Clock,
     ) -> Result<()> {
-        let pipelines = self.begin_view(r, encoder, stage, take)?;
+        let (pipelines, following) = self.begin_view(r, encoder, stage, take)?;
         if !matches!(take.shown, Shown::Floor(_)) {
             // Depth of all surfaces, and their normals and parts, where a material reads them.
             self.encode_prepass(r, encoder, stage, take, clock)?;
         }
+        // How far surfaces have moved, where a picture follows another.
+        self.encode_velocity(r, encoder, stage, take)?;
         // Light that blooms, and how far it spreads.
         self.encode_glow(r, encoder, stage, take, clock)?;
         // One colour pass: opaque, outlines and transparent share their targets, so samples are resolved once.
@@ -195,8 +206,8 @@ impl Frame {
         if has_weighted {
             self.encode_weighted(r, encoder, stage, take, &pipelines);
         }
-        // Bloom, tone curve, background, smooth edges.
-        self.encode_post(encoder, take, clock);
+        // With what was seen before; bloom, tone curve, background, smooth edges.
+        self.encode_post(r, encoder, take, following.as_ref(), clock);
         Ok(())
     }
 
@@ -243,8 +254,16 @@ impl Frame {
     }
 
     /// Sends the numbers of a view.
-    fn send_view(&mut self, encoder: &mut wgpu::CommandEncoder, stage: &Stage, view: &View) {
-        let numbers = self.numbers.fill(|numbers| put_view(numbers, view, stage));
+    fn send_view(
+        &mut self,
+        encoder: &mut wgpu::CommandEncoder,
+        stage: &Stage,
+        view: &View,
+        following: Option<&Following>,
+    ) {
+        let (view, before) = following.map_or((view, None), |f| (&f.view, Some(f.step.clip_before)));
+        let before = before.unwrap_or_else(|| view.clip_from_world());
+        let numbers = self.numbers.fill(|numbers| put_view(numbers, view, stage, before));
         self.uploads.write(encoder, &self.uniform, 0, numbers);
     }
 
@@ -255,8 +274,8 @@ impl Frame {
         encoder: &mut wgpu::CommandEncoder,
         stage: &Stage,
         take: &Take<'_>,
-    ) -> Result<Vec<Drawables>> {
-        let Take { view, target, post, picture, .. } = take;
+    ) -> Result<(Vec<Drawables>, Option<Following>)> {
+        let Take { view, target, post, picture, shown } = take;
         if !stage.bodies.are_of(&stage.actors) {
             let message = "has other actors than when it was prepared; please prepare it before it is drawn".to_owned();
             return Err(Error::Argument { what: "stage".to_owned(), message });
@@ -267,7 +286,14 @@ impl Frame {
         }
         let gpu = r.gpu().clone();
         self.fit_environment(r, stage)?;
-        self.send_view(encoder, stage, view);
+        let following = match post {
+            Some(Post { antialias: Antialias::Temporal, .. }) => Some(self.follow(r, stage, view)?),
+            _ => None,
+        };
+        if let (Shown::Picture, None, Some(temporal)) = (shown, &following, &mut self.temporal) {
+            temporal.forget(view.history);
+        }
+        self.send_view(encoder, stage, view, following.as_ref());
         if let Some(crowd) = &stage.bodies.crowd {
             self.blended.arrange(&stage.bodies, crowd, view.camera.eye);
             self.blended.send(&gpu, &mut self.uploads, encoder);
@@ -289,7 +315,43 @@ impl Frame {
             let group = frame_group(&gpu, &r.layouts, self.shared(), &targets);
             self.prepass_targets = Some((targets, group));
         }
-        stage.bodies.troupes.iter().map(|troupe| troupe.data().shown(&r.variants, picture)).collect()
+        let pipelines = stage.bodies.troupes.iter().map(|troupe| troupe.data().shown(&r.variants, picture));
+        Ok((pipelines.collect::<Result<_>>()?, following))
+    }
+
+    /// What a picture of a window follows.
+    fn follow(&mut self, r: &Renderer, stage: &Stage, view: &View) -> Result<Following> {
+        let temporal = match &mut self.temporal {
+            Some(temporal) => temporal,
+            none => none.insert(Temporal::new(&r.variants)?),
+        };
+        // Four samples lie within a pixel already.
+        let reach = if r.output.samples == 4 { 0.5 } else { 1.0 };
+        let ground_y = stage.ground.as_ref().map(|ground| ground.middle.y);
+        Ok(temporal.begin(r.gpu(), view, &stage.bodies.past, ground_y, reach))
+    }
+
+    /// What moved in the last picture that followed another.
+    pub fn motion(&self) -> Option<wgpu::Texture> {
+        Some(self.temporal.as_ref()?.moved()?.texture.clone())
+    }
+
+    fn encode_velocity(
+        &self,
+        r: &Renderer,
+        encoder: &mut wgpu::CommandEncoder,
+        stage: &Stage,
+        take: &Take<'_>,
+    ) -> Result<()> {
+        let follows = take.post.is_some_and(|post| post.antialias == Antialias::Temporal);
+        let actors = actors(stage, &self.group, take.view.first_person).filter(|_| follows);
+        if let (Some(actors), Some(targets)) = (actors, self.temporal.as_ref().and_then(Temporal::moved)) {
+            let all = actors.bodies.troupes.iter().map(|t| t.data().velocities(&r.variants));
+            let all = all.collect::<Result<Vec<_>>>()?;
+            let drawn = &|troupe: usize, draw: usize| all[troupe][draw].as_ref();
+            velocity::encode(encoder, &VelocityInputs { actors, targets, drawn });
+        }
+        Ok(())
     }
 
     /// Takes the environment of a stage, where it is another than that of the last one.
@@ -504,17 +566,29 @@ impl Frame {
         drawn.map_or(&self.group, |(_, group)| group)
     }
 
-    fn encode_post(&mut self, encoder: &mut wgpu::CommandEncoder, take: &Take<'_>, clock: &Clock) {
+    fn encode_post(
+        &mut self,
+        r: &Renderer,
+        encoder: &mut wgpu::CommandEncoder,
+        take: &Take<'_>,
+        following: Option<&Following>,
+        clock: &Clock,
+    ) {
         let Take { view, target, post, .. } = *take;
-        let Self { uploads, post: pass, post_targets, .. } = self;
+        let Self { uploads, post: pass, post_targets, temporal, .. } = self;
         if let (Some(post), Some(targets), Some(pass)) = (post, post_targets, pass) {
+            let mean = following.zip(temporal.as_mut()).and_then(|(following, temporal)| {
+                let read = [&targets.picture, targets.spread()];
+                temporal.encode(r.gpu(), uploads, encoder, &following.step, pass, read)
+            });
             // What is kept is behind it.
             let background = if target.keeps_color {
                 Background::Transparent
             } else {
                 view.background
             };
-            let inputs = PostInputs { post, background, group: &targets.group, target: target.color };
+            let group = mean.as_ref().unwrap_or(&targets.group);
+            let inputs = PostInputs { post, background, group, target: target.color };
             pass.encode(uploads, encoder, &inputs, clock.render(Timed::Post));
         }
     }
@@ -540,8 +614,7 @@ impl Frame {
             let chain = bloom.chain(&gpu, &glow, levels);
             (glow, chain)
         });
-        // Without bloom its strength is 0, and any picture will do.
-        let spread = light.as_ref().map_or(&picture, |(glow, _)| glow);
+        let spread = spread(&picture, light.as_ref());
         *post_targets = Some(PostTargets {
             color: ColorTargets::new(&gpu, size, Output { format: HDR_FORMAT, ..r.output }),
             group: pass.group(&gpu, &picture, spread),
@@ -558,7 +631,7 @@ impl Frame {
         let targets = PrepassTargets::new(&gpu, view.size, true);
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("channel") });
         self.encode_shared(r, &mut encoder, stage, false, &Clock::off())?;
-        self.send_view(&mut encoder, stage, view);
+        self.send_view(&mut encoder, stage, view, None);
         if let Some(actors) = actors(stage, &self.group, view.first_person) {
             // Depth, normal and part id.
             let all = actors.bodies.troupes.iter().map(|t| t.data().geometry(&r.variants));
@@ -677,4 +750,16 @@ fn frame_group(
         environments.split_sum.as_entire_binding(),
     ];
     bind::group(gpu, "frame", &layouts.frame, resources)
+}
+
+impl PostTargets {
+    /// Light that blooms.
+    fn spread(&self) -> &wgpu::TextureView {
+        spread(&self.picture, self.light.as_ref())
+    }
+}
+
+/// Without bloom its strength is 0, and any picture will do.
+fn spread<'a>(picture: &'a wgpu::TextureView, light: Option<&'a (wgpu::TextureView, BloomChain)>) -> &'a wgpu::TextureView {
+    light.map_or(picture, |(glow, _)| glow)
 }

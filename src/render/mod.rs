@@ -21,6 +21,7 @@ pub(crate) mod readback;
 pub mod shaders;
 mod target;
 mod targets;
+mod temporal;
 mod textures;
 mod upload;
 pub(crate) mod uploads;

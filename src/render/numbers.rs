@@ -20,13 +20,18 @@ pub(crate) fn actor_numbers() -> Filled {
     Filled::of("bind/actor", "Actor")
 }
 
+/// `TemporalNumbers` of `wgsl/pass/temporal.wgsl`.
+pub(crate) fn temporal_numbers() -> Filled {
+    Filled::of("pass/temporal", "TemporalNumbers")
+}
+
 /// `PostNumbers` of `wgsl/pass/post.wgsl`.
 pub(crate) fn post_numbers() -> Filled {
     Filled::of("pass/post", "PostNumbers")
 }
 
-/// Writes the numbers of a view of a stage.
-pub(crate) fn put_view(gpu: &mut Block<'_>, view: &View, stage: &Stage) {
+/// Writes the numbers of a view of a stage. `clip_before` is where the last picture of a window was seen from.
+pub(crate) fn put_view(gpu: &mut Block<'_>, view: &View, stage: &Stage, clip_before: Mat4) {
     let aspect = view.size[0] as f32 / view.size[1] as f32;
     let camera = &view.camera;
     let view_from_world = camera.view_from_world();
@@ -36,6 +41,9 @@ pub(crate) fn put_view(gpu: &mut Block<'_>, view: &View, stage: &Stage) {
         std::array::from_fn(|i| lights.punctual.get(i).map_or([[0.0; 4]; 3], punctual));
     gpu.put("clip_from_world", view.clip_from_world().to_cols_array_2d());
     gpu.put("view_from_world", view_from_world.to_cols_array_2d());
+    gpu.put("clip_before", clip_before.to_cols_array_2d());
+    gpu.put("jitter_px", view.jitter_px);
+    gpu.put("size_px", view.size.map(|s| s as f32));
     gpu.put("eye", camera.eye.to_array());
     gpu.put("time_s", stage.time_s);
     gpu.put("to_light", directional.to_light.normalize_or(Vec3::Z).to_array());

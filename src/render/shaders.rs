@@ -161,6 +161,8 @@ impl Recipe {
 pub(crate) struct Linked {
     pub text: Arc<str>,
     pub has_fragment: bool,
+    /// Whether it reads where actors were in the last picture.
+    pub reads_past: bool,
     /// What it binds of its material.
     pub bindings: Vec<Binding>,
 }
@@ -280,6 +282,7 @@ impl Shaders {
         let module = naga::front::wgsl::parse_str(&text).map_err(|e| fault_in(&recipe.sections, &text, &e))?;
         Ok(Linked {
             has_fragment: module.entry_points.iter().any(|e| e.stage == naga::ShaderStage::Fragment),
+            reads_past: module.global_variables.iter().any(|(_, v)| v.binding.as_ref().is_some_and(|b| b.group == 3)),
             bindings: bindings(&module),
             text: text.into(),
         })

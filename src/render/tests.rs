@@ -10,7 +10,7 @@ use toml::{Table, Value};
 use super::Output;
 use super::draw_list::surface_requests;
 use super::material::{Composition, bytes};
-use super::pass::{DEPTH_FORMAT, Mark, Picture, Sight, bangs_shadow, glow, prepass, shadow};
+use super::pass::{DEPTH_FORMAT, Mark, Picture, Sight, bangs_shadow, glow, prepass, shadow, velocity};
 use super::shaders::{Recipe, Shaders};
 use super::variants::Request;
 use crate::material::{About, Alpha, AlphaMode, Blending, Field, Kind, LISTED, Material, Shading, Surroundings};
@@ -106,6 +106,7 @@ fn requests(shaders: &Shaders, material: &Material, colors: bool, channel: Optio
     list.extend(of.has("glow").then(|| glow::request(&of, material, colors)));
     list.push(shadow::request(&of, colors));
     list.push(bangs_shadow::request(&of, colors));
+    list.push(velocity::request(&of, material, colors));
     list.extend([true, false].map(|surfaces| prepass::request(&of, material, colors, surfaces)));
     list
 }
@@ -191,7 +192,7 @@ fn all_sections_that_go_together_link_in_every_pass() {
 #[test]
 fn passes_without_a_material_are_valid() {
     let shaders = Shaders::new().expect("sections");
-    for pass in ["background", "bangs_near", "bloom", "deform", "environment", "fibre"] {
+    for pass in ["background", "bangs_near", "bloom", "deform", "environment", "fibre", "temporal"] {
         validate(&shaders, &Recipe::plain(pass));
     }
     for (several, encodes) in [(false, false), (true, false), (false, true), (true, true)] {

@@ -165,6 +165,7 @@ impl Renderer {
             has_weighted: draws.iter().any(|draw| draw.weighted),
             world_shadows: OnceLock::new(),
             glows: OnceLock::new(),
+            velocities: OnceLock::new(),
             draws,
             bangs,
             shadow,

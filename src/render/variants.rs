@@ -1,7 +1,7 @@
 //! Pipelines: one maker for every pass, keyed by what the shader is linked from and by fixed state, on all cores.
 
 use std::collections::HashMap;
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, OnceLock};
 
 use rayon::prelude::*;
 
@@ -65,6 +65,8 @@ pub(crate) struct Variants {
     pub shaders: Shaders,
     frame: wgpu::BindGroupLayout,
     character: wgpu::BindGroupLayout,
+    /// Group 3: where actors were in the last picture; made when somebody asks.
+    past: OnceLock<wgpu::BindGroupLayout>,
     /// Of shaders that bind nothing of a material.
     bare: wgpu::PipelineLayout,
     layouts: Mutex<HashMap<Vec<Binding>, Arc<BoundLayout>>>,
@@ -76,7 +78,13 @@ impl Variants {
     pub fn new(gpu: &Gpu, shaders: Shaders, frame: wgpu::BindGroupLayout, character: wgpu::BindGroupLayout) -> Self {
         let bare = pipeline_layout(gpu, &[Some(&frame), Some(&character)]);
         let (layouts, made) = Default::default();
-        Self { gpu: gpu.clone(), shaders, frame, character, bare, layouts, made }
+        Self { gpu: gpu.clone(), shaders, frame, character, past: OnceLock::new(), bare, layouts, made }
+    }
+
+    /// Layout of group 3.
+    pub fn past(&self) -> &wgpu::BindGroupLayout {
+        let list = || (wgpu::ShaderStages::VERTEX, bind::storage());
+        self.past.get_or_init(|| bind::layout(&self.gpu, "past", [list(), list()]))
     }
 
     /// The pipeline of a request, made on first use.
@@ -121,9 +129,14 @@ impl Variants {
         self.gpu.scoped(|| {
             let module = self.module(recipe.pass, linked);
             let bound = (!linked.bindings.is_empty()).then(|| self.layout(&linked.bindings));
+            let with_past = linked.reads_past.then(|| {
+                let material = bound.as_ref().map(|b| &b.group);
+                pipeline_layout(&self.gpu, &[Some(&self.frame), Some(&self.character), material, Some(self.past())])
+            });
+            let layout = with_past.as_ref().unwrap_or(bound.as_ref().map_or(&self.bare, |b| &b.pipeline));
             let pipeline = self.gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
                 label: Some(recipe.pass),
-                layout: Some(bound.as_ref().map_or(&self.bare, |b| &b.pipeline)),
+                layout: Some(layout),
                 vertex: wgpu::VertexState {
                     module: &module,
                     entry_point: Some("vs_main"),

@@ -31,6 +31,13 @@ pub struct View {
     /// Number of the picture among those that are averaged: noise of [`hashed`](crate::material::Alpha::hashed) alpha is another
     /// one in each. Default: 0.
     pub frame: u32,
+    /// Which pictures this one follows where a stage asks for
+    /// [`Antialias::Temporal`](crate::scene::Antialias::Temporal): views that are drawn in the same frame (two halves of a window,
+    /// a mirror) need numbers of their own, or none of them is smoothed. The renderer keeps those of the last 8 numbers. A picture
+    /// follows where the stage was prepared once since, and the size is the same. Default: 0.
+    pub history: u32,
+    /// Whether it follows no picture, though it might: after a cut of the camera. Default: false.
+    pub is_cut: bool,
 }
 
 impl Default for View {
@@ -43,6 +50,8 @@ impl Default for View {
             first_person: None,
             jitter_px: [0.0; 2],
             frame: 0,
+            history: 0,
+            is_cut: false,
         }
     }
 }

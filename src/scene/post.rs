@@ -30,7 +30,7 @@ crate::part! {
     }
 }
 
-/// How edges are smoothed beyond the samples of a pixel. In a look file `"none"`, `"fxaa"` or `"temporal"`; `true` and `false`
+/// How edges are smoothed beyond the samples of a pixel. In a look file `"none"`, `"fxaa"` or `"temporal"`; `false` and `true`
 /// stand for the first two.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "kebab-case")]
@@ -40,6 +40,13 @@ pub enum Antialias {
     /// In the finished picture, where it has one sample a pixel (after FXAA, Lottes 2009); with more it does nothing.
     #[default]
     Fxaa,
+    /// Over the pictures of a window that follow each other ([`Renderer::draw`](crate::Renderer::draw)), whatever their samples:
+    /// each is moved by a share of a pixel, and what was seen before is moved to where it is now and mixed in (TAA). Cuts,
+    /// lines and [`hashed`](crate::material::Alpha::hashed) alpha become smooth, too. Blended surfaces move with what is behind
+    /// them, and edges between what a host draws and actors move with the actors. Each view has a
+    /// [`history`](crate::View::history) of its own. A still by itself is drawn without; its like is
+    /// [`Renderer::render_accumulated`](crate::Renderer::render_accumulated).
+    Temporal,
 }
 plain_parts!(Antialias);
 
@@ -50,7 +57,7 @@ impl<'de> serde::Deserialize<'de> for Antialias {
             type Value = Antialias;
 
             fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-                f.write_str("\"none\" or \"fxaa\"")
+                f.write_str("\"none\", \"fxaa\" or \"temporal\"")
             }
 
             fn visit_bool<E>(self, is_on: bool) -> Result<Antialias, E> {
@@ -61,7 +68,8 @@ impl<'de> serde::Deserialize<'de> for Antialias {
                 match name {
                     "none" => Ok(Antialias::None),
                     "fxaa" => Ok(Antialias::Fxaa),
-                    other => Err(E::unknown_variant(other, &["none", "fxaa"])),
+                    "temporal" => Ok(Antialias::Temporal),
+                    other => Err(E::unknown_variant(other, &["none", "fxaa", "temporal"])),
                 }
             }
         }

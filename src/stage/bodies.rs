@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use super::body::{Body, FaceLight};
 use super::crowd::Crowd;
 use super::maps::{WorldMap, casting, world_rows};
+use super::past::StagePast;
 use super::troupe::Troupe;
 use super::volume::{Sphere, Volume};
 use super::{Actor, Ground, Stage};
@@ -30,6 +31,7 @@ pub(crate) struct Bodies {
     pub world_map: WorldMap,
     pub crowd: Option<Crowd>,
     pub ground: Option<GroundBody>,
+    pub past: StagePast,
     pub(super) scratch: Scratch,
 }
 

@@ -31,6 +31,8 @@ pub(crate) struct Body {
     /// The same of others that cast on its face.
     pub face_casters: Vec<(usize, u32)>,
     pub world: Mat4,
+    /// Where it was when its stage was prepared last, while somebody asks.
+    pub(super) last_world: Option<Mat4>,
     /// Share of the key light that arrives.
     pub(super) key_light: f32,
     /// Least and greatest corner in its pose, character space; and what that is in the world.
@@ -85,6 +87,7 @@ impl Body {
             casters: Vec::new(),
             face_casters: Vec::new(),
             world: actor.world,
+            last_world: None,
             key_light: actor.key_light,
             bounds: (Vec3::ZERO, Vec3::ZERO),
             volume: Volume::default(),

@@ -6,6 +6,7 @@ pub(crate) mod body;
 pub(crate) mod crowd;
 mod ground;
 mod maps;
+pub(crate) mod past;
 mod shadow;
 pub(crate) mod troupe;
 mod volume;

@@ -11,6 +11,7 @@ use crate::render::vertex::AffineRows;
 use crate::render::{Character, CharacterData, Renderer};
 
 use super::maps::MapsKey;
+use super::past::TroupePast;
 
 /// Actors of one character, as many as their buffers may hold; the rest are another troupe.
 #[derive(Debug)]
@@ -22,6 +23,8 @@ pub(crate) struct Troupe {
     most: usize,
     pub deform: DeformBuffers,
     pub bangs: Option<BangsAtlas>,
+    /// Where its vertices were, while somebody asks.
+    pub past: Option<TroupePast>,
     /// Group 1, and the same while maps of shadows are drawn.
     pub groups: Option<[wgpu::BindGroup; 2]>,
     /// Joints and weights of all slots.
@@ -50,6 +53,7 @@ impl Troupe {
             most: most.max(1),
             deform: renderer.deform_buffers(&data.source, 1),
             bangs: None,
+            past: None,
             groups: None,
             joints: Vec::new(),
             weights: Vec::new(),

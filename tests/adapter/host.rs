@@ -333,7 +333,7 @@ fn layers_are_in_a_hosts_frame_what_they_are_alone() {
             (1, F::Depth32Float, Lens::Camera, true),
         ] {
             let (view, clip_from_world) = lens.of(&own_view);
-            let plain = Post { bloom: None, tone: ToneCurve::None, antialias: false };
+            let plain = Post { bloom: None, exposure_ev: 0.0, tone: ToneCurve::None, antialias: Antialias::None };
             let own = Renderer::with_output(&gpu, Output { samples, ..Output::default() }).expect("a renderer");
             let mut stage = actors_of(&own, &skins(blending), true);
             stage.post = post.then_some(plain);

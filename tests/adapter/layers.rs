@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use glam::{Quat, Vec3};
 use hikage::color::{LinearRgb, Srgb};
 use hikage::material::{Alpha, AlphaMode, Blending, CastShadow, Material, Shading};
-use hikage::scene::{Framing, Image, Post, Primitive, Scene, SelfShadow, ToneCurve};
+use hikage::scene::{Antialias, Framing, Image, Post, Primitive, Scene, SelfShadow, ToneCurve};
 use hikage::{Actor, Background, Output, Renderer, Stage, View};
 
 use crate::support::{Shoot, Shot, gpu, pixel, scene, square, staged, view, with_renderer};
@@ -242,7 +242,7 @@ fn several_actors_and_finished_pictures_show_the_same_layers() {
                 let off = a.iter().zip(&b).map(|(a, b)| a.abs_diff(*b)).max();
                 assert!(off <= Some(1), "{blending:?}: {off:?}");
             }
-            both.post = Some(Post { bloom: None, tone: ToneCurve::None, antialias: false });
+            both.post = Some(Post { bloom: None, exposure_ev: 0.0, tone: ToneCurve::None, antialias: Antialias::None });
             let finished = renderer.render(&mut both, &shot.view()).expect("a picture");
             assert!(most_off(&together, &finished) <= 2, "{blending:?}: {}", most_off(&together, &finished));
             // Its own layers are not before an actor's eyes where its file says nothing of heads; the other's are whole.

@@ -23,3 +23,4 @@ mod own_look;
 mod self_shadow;
 mod stage;
 mod temporal;
+mod temporal_windows;

@@ -12,9 +12,9 @@ use crate::support::{cube, gpu, scene, sphere, square, texture, two_tone, view};
 const FINE: u32 = 8;
 
 /// Premultiplied linear light.
-type Light = [f32; 4];
+pub(crate) type Light = [f32; 4];
 
-fn light_of(p: &[u8]) -> Light {
+pub(crate) fn light_of(p: &[u8]) -> Light {
     let alpha = f32::from(p[3]) / 255.0;
     let [r, g, b] = [0, 1, 2].map(|i| linear_from_srgb(f32::from(p[i]) / 255.0) * alpha);
     [r, g, b, alpha]
@@ -22,7 +22,7 @@ fn light_of(p: &[u8]) -> Light {
 
 /// A picture as large as `size`, of one that is drawn larger: the mean of each block in linear light, and the greatest
 /// difference within it.
-fn boxed(fine: &Image, size: [u32; 2]) -> Vec<(Light, f32)> {
+pub(crate) fn boxed(fine: &Image, size: [u32; 2]) -> Vec<(Light, f32)> {
     let by = fine.width / size[0];
     let block = |x: u32, y: u32| {
         let (mut sum, mut low, mut high) = ([0.0; 4], [f32::MAX; 4], [f32::MIN; 4]);
@@ -41,20 +41,24 @@ fn boxed(fine: &Image, size: [u32; 2]) -> Vec<(Light, f32)> {
 
 /// How far a picture is from the mean of a larger one.
 #[derive(Debug)]
-struct Off {
+pub(crate) struct Off {
     /// Mean over all pixels and channels, encoded as the picture is, 0..1.
-    mean: f32,
+    pub mean: f32,
     /// Mean of squares over pixels in which something differs, linear light.
-    edges: f32,
-    edge_count: usize,
+    pub edges: f32,
+    pub edge_count: usize,
 }
 
 fn off(found: &Image, expected: &[(Light, f32)]) -> Off {
+    let found: Vec<Light> = found.pixels.chunks_exact(4).map(light_of).collect();
+    off_lights(&found, expected)
+}
+
+pub(crate) fn off_lights(found: &[Light], expected: &[(Light, f32)]) -> Off {
     let (mut mean, mut edges, mut edge_count) = (0.0, 0.0, 0);
-    for (p, (light, spread)) in found.pixels.chunks_exact(4).zip(expected) {
-        let found = light_of(p);
-        let code = |l: Light| [srgb_from_linear(l[0]), srgb_from_linear(l[1]), srgb_from_linear(l[2]), l[3]];
-        mean += code(found).iter().zip(code(*light)).map(|(a, b)| (a - b).abs()).sum::<f32>() / 4.0;
+    for (found, (light, spread)) in found.iter().zip(expected) {
+        let code = |l: &Light| [srgb_from_linear(l[0]), srgb_from_linear(l[1]), srgb_from_linear(l[2]), l[3]];
+        mean += code(found).iter().zip(code(light)).map(|(a, b)| (a - b).abs()).sum::<f32>() / 4.0;
         if *spread > 0.05 {
             edges += found.iter().zip(light).map(|(a, b)| (a - b).powi(2)).sum::<f32>() / 4.0;
             edge_count += 1;
@@ -64,7 +68,7 @@ fn off(found: &Image, expected: &[(Light, f32)]) -> Off {
 }
 
 /// A turned cube with lines round it, a ball, and a card with holes.
-fn still_life(outline: Option<OutlineWidth>) -> Scene {
+pub(crate) fn still_life(outline: Option<OutlineWidth>) -> Scene {
     let lined = |m: Material| Material { outline: outline.map(|width| Outline { width, ..Outline::default() }), ..m };
     let mut ball = sphere(0.28, 24, 48);
     ball.positions.iter_mut().for_each(|p| *p = [p[0] + 0.35, p[1] - 0.2, p[2] + 0.1]);
@@ -94,18 +98,18 @@ fn still_life(outline: Option<OutlineWidth>) -> Scene {
     made
 }
 
-fn output(samples: u32) -> Output {
+pub(crate) fn output(samples: u32) -> Output {
     Output { samples, ..Output::default() }
 }
 
-fn staged(renderer: &Renderer, scene: &Scene) -> Stage {
+pub(crate) fn staged(renderer: &Renderer, scene: &Scene) -> Stage {
     let mut stage = Stage::of([Actor::new(&renderer.upload(scene).expect("an upload"))]);
     stage.lights = view(1, 1.0).lights;
     stage
 }
 
 /// What a view would be with as many samples a pixel as there are.
-fn reference(gpu: &Gpu, scene: &Scene, set: impl Fn(&mut Stage), view: &View) -> Vec<(Light, f32)> {
+pub(crate) fn reference(gpu: &Gpu, scene: &Scene, set: impl Fn(&mut Stage), view: &View) -> Vec<(Light, f32)> {
     let renderer = Renderer::with_output(gpu, output(1)).expect("a renderer");
     let mut stage = staged(&renderer, scene);
     set(&mut stage);
@@ -190,7 +194,7 @@ fn what_has_no_mean_is_refused() {
 }
 
 /// A card with a constant alpha that fills the picture, and one behind it.
-fn veils(count: usize, alpha: f32, mode: AlphaMode) -> Scene {
+pub(crate) fn veils(count: usize, alpha: f32, mode: AlphaMode) -> Scene {
     let veil = |i: usize| {
         let material = Material {
             shading: Shading::Unlit,

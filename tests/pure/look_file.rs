@@ -345,6 +345,7 @@ fn antialiasing_goes_by_name_or_switch() {
     for (value, expected) in [
         ("\"none\"", Antialias::None),
         ("\"fxaa\"", Antialias::Fxaa),
+        ("\"temporal\"", Antialias::Temporal),
         ("false", Antialias::None),
         ("true", Antialias::Fxaa),
     ] {
@@ -358,7 +359,7 @@ fn antialiasing_goes_by_name_or_switch() {
     let error = apply("[post]\nantialias = \"smooth\"", &mut doll()).expect_err("unknown");
     assert!(error.contains("smooth") && error.contains("fxaa"), "{error}");
     let error = apply("[post]\nantialias = 2", &mut doll()).expect_err("a number");
-    assert!(error.contains("\"none\" or \"fxaa\""), "{error}");
+    assert!(error.contains("\"none\", \"fxaa\" or \"temporal\""), "{error}");
     assert!(LookFile::template(&{
         let mut scene = doll();
         apply("[post]\nantialias = false", &mut scene).expect("a look");

@@ -16,6 +16,8 @@ struct PunctualLight {
 struct Frame {
     clip_from_world: mat4x4f,
     view_from_world: mat4x4f,
+    // clip_from_world of the last picture of a window, without jitter.
+    clip_before: mat4x4f,
     eye: vec3f,
     time_s: f32,
     // Unit, from the surface to the light.
@@ -39,6 +41,9 @@ struct Frame {
     nearest_weighed: f32,
     // Depth of a host is x + y * near / distance.
     host_depth: vec2f,
+    // How far the picture is moved under its pixels, and its size.
+    jitter_px: vec2f,
+    size_px: vec2f,
     punctual: array<PunctualLight, 4>,
     // Irradiance over pi as harmonics: factors of 1, y, z, x, xy, yz, 3z²-1, xz, x²-y²; strength included.
     irradiance: array<vec4f, 9>,

@@ -35,6 +35,8 @@ struct Varying {
     // Depth in a map that is drawn from a light.
     @if(depth) @location(13) depth: f32,
     @if(actor) @location(14) @interpolate(flat) actor: u32,
+    // Where it was in the last picture: x, y and w of the clip position.
+    @if(before) @location(15) before: vec3f,
 }
 
 // Of a vertex of the picture.

@@ -149,7 +149,7 @@ impl DeformPass {
         let [joints, weights, deformed] = source.sizes();
         let joints = sized("joints", joints, U::STORAGE | U::COPY_DST);
         let weights = sized("morph weights", weights, U::STORAGE | U::COPY_DST);
-        let deformed = sized("deformed vertices", deformed, U::STORAGE);
+        let deformed = sized("deformed vertices", deformed, U::STORAGE | U::COPY_SRC);
         let moved = bind::buffer(gpu, "moved", 16 + 4 * MOST_SLOTS as u64, U::UNIFORM | U::COPY_DST);
         let bound = source.fixed.iter().chain([&joints, &weights, &deformed, &moved]);
         let layout = self.pipeline.get_bind_group_layout(0);

@@ -17,7 +17,9 @@ pub(crate) mod post;
 pub(crate) mod prepass;
 pub(crate) mod resolve;
 pub(crate) mod shadow;
+pub(crate) mod temporal;
 pub(crate) mod transparent;
+pub(crate) mod velocity;
 pub(crate) mod weighted;
 
 use super::shaders::Recipe;
