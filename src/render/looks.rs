@@ -63,7 +63,7 @@ impl Looks {
         if let Some((key, message)) = material.clone().out_of_range() {
             return fault(&format!(" {:?}, {key}", material.name), message);
         }
-        let layers = |m: &Material| (m.blending(), m.has_core(), m.alpha.front_writes_depth);
+        let layers = |m: &Material| (m.blending(), m.has_core(), m.alpha.front_writes_depth, m.strips.map(|s| s.sort));
         let fixed = |m: &Material| (m.alpha.mode, m.alpha.write_depth, m.alpha.queue_offset, m.double_sided, layers(m));
         let mut other = material.clone();
         let sections: Vec<&str> = other.sections_mut().map(|section| section.about().key).collect();

@@ -143,7 +143,7 @@ fn every_section_alone_links_in_every_pass() {
             }
         }
         let material = material_with(&[about], true, AlphaMode::Mask);
-        materials.extend(about.channel.map(|(channel, _)| (material.clone(), Some(channel))));
+        materials.extend(about.channels().map(|(channel, _)| (material.clone(), Some(channel))));
         for blending in [Blending::ThreePass, Blending::DoubleLayer, Blending::Weighted] {
             let mut layered = material_with(&[about], true, AlphaMode::Blend);
             layered.alpha.blending = blending;
@@ -171,7 +171,7 @@ fn all_sections_that_go_together_link_in_every_pass() {
             }
         }
         let material = material_with(&kept, true, AlphaMode::Opaque);
-        let channels = LISTED.iter().filter_map(|a| a.channel);
+        let channels = LISTED.iter().flat_map(|a| a.channels());
         materials.extend(channels.map(|(channel, _)| (material.clone(), Some(channel))));
     }
     validate_all(&shaders, &materials);

@@ -22,3 +22,4 @@ mod oracles;
 mod own_look;
 mod self_shadow;
 mod stage;
+mod strips;
