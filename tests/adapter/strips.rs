@@ -185,9 +185,9 @@ fn expressions_move_strips() {
         let (rest, moved) = (picture(0.0), picture(1.0));
         let is = |p: [u8; 4], red: bool, green: bool| (p[0] > 100, p[1] > 100) == (red, green);
         let both = |x, y| [pixel(&rest, x, y), pixel(&moved, x, y)];
-        let [at_rest, when_moved] = both(48, 66);
+        let [at_rest, when_moved] = both(48, 74);
         assert!(is(at_rest, false, true) && is(when_moved, false, false), "it has left: {at_rest:?} {when_moved:?}");
-        let [at_rest, when_moved] = both(72, 60);
+        let [at_rest, when_moved] = both(85, 60);
         assert!(is(at_rest, false, false) && is(when_moved, false, true), "it is there: {at_rest:?} {when_moved:?}");
         assert!(is(pixel(&moved, 48, 40), true, false), "the other one stays");
     });
