@@ -94,6 +94,7 @@ fn requests(shaders: &Shaders, material: &Material, colors: bool, channel: Optio
         center: glam::Vec3::ZERO,
         has_vertex_colors: colors,
         blend: material.alpha.mode == AlphaMode::Blend,
+        layered: material.blending() != Blending::Sorted,
         core: material.has_core(),
         weighted: material.blending() == Blending::Weighted,
         write_depth: true,

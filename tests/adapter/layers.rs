@@ -169,6 +169,28 @@ fn back_faces_lie_below_front_faces() {
     });
 }
 
+/// An eye under hair whose middle is farther away: large parts have no one distance.
+#[test]
+fn layers_lie_over_what_is_sorted_unless_their_queue_says_otherwise() {
+    let gpu = gpu();
+    with_renderer(&gpu, |renderer| {
+        let shot = Shot { background: Background::Color(Srgb([0; 3])), ..view(64, 3.0) };
+        for blending in [Blending::ThreePass, Blending::DoubleLayer] {
+            let at = |queue_offset: i32| {
+                let eye = stack(&[(0.0, [0.0, 1.0, 0.0, 0.5])]);
+                // A strand before the eye, and many behind it.
+                let strands = stack(&[(0.05, [1.0, 0.0, 0.0, 0.5]), (-0.9, [1.0, 0.0, 0.0, 0.0])]);
+                let mut hair = material(blending);
+                hair.alpha.queue_offset = queue_offset;
+                let of = scene(vec![(strands, hair), (eye, material(Blending::Sorted))]);
+                pixel(&renderer.shoot(&mut staged(renderer.upload(&of)), &shot).expect("a picture"), 32, 32)
+            };
+            assert!(at(0)[0] > at(0)[1], "{blending:?}: the strand is above: {:?}", at(0));
+            assert!(at(-1)[0] < at(-1)[1], "{blending:?}: the eye is above: {:?}", at(-1));
+        }
+    });
+}
+
 #[test]
 fn what_is_hardly_there_is_left_out() {
     let gpu = gpu();

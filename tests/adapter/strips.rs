@@ -144,7 +144,8 @@ fn colours_of_a_file_are_kept_and_colour_nothing() {
         assert_ne!(shown("strips")[..3], [0; 3]);
         // Neither does what is known along a strip, in any pass: cut, blended, in lines.
         for mode in [AlphaMode::Opaque, AlphaMode::Mask, AlphaMode::Blend] {
-            let line = Outline { width: OutlineWidth::World { metres: 0.02 }, vertex_width: true, ..Outline::default() };
+            let line =
+                Outline { width: OutlineWidth::World { metres: 0.02 }, vertex_width: true, ..Outline::default() };
             let mut bare = plain.clone();
             bare.materials[0] = Material { outline: Some(line), ..material(None, mode) };
             let mut with = bare.clone();
