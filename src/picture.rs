@@ -54,6 +54,16 @@ pub fn read_texture(gpu: &crate::Gpu, texture: &wgpu::Texture) -> Result<Image> 
     crate::render::readback::read(gpu, texture)
 }
 
+/// Reads a texture of floats back that an application has drawn: linear, premultiplied as it was drawn, from the top left row by
+/// row.
+///
+/// # Errors
+/// [`Error::Argument`] for a format other than `Rgba16Float` and `Rgba32Float`; [`Error::Gpu`] where the adapter fails or does
+/// not answer.
+pub fn read_linear(gpu: &crate::Gpu, texture: &wgpu::Texture) -> Result<Vec<[f32; 4]>> {
+    crate::render::readback::read_linear(gpu, texture)
+}
+
 /// Reads a PNG of any colour type as 8-bit RGBA with straight alpha.
 ///
 /// Meant for pictures of one's own, as goldens are; textures of strangers go through

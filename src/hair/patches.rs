@@ -36,11 +36,9 @@ pub(super) fn patches(
     let edges = edges(triangles, places, uvs);
     let mut islands = Sets::new(triangles.len());
     // Sides of one edge that have the same texture coordinates are one surface, however many meet there.
-    for sides in edges.values() {
-        for (i, a) in sides.iter().enumerate() {
-            for b in sides.iter().skip(i + 1).filter(|b| b.uv == a.uv) {
-                islands.join(a.triangle, b.triangle);
-            }
+    for pair in edges.values().flat_map(|sides| sides.windows(2)) {
+        if pair[0].uv == pair[1].uv {
+            islands.join(pair[0].triangle, pair[1].triangle);
         }
     }
     let mut all = islands.clone();
@@ -66,7 +64,7 @@ struct Side {
     ends: [u32; 2],
 }
 
-/// Edges by the places of their ends.
+/// Edges by the places of their ends, each with its sides by their texture coordinates.
 type Edges = BTreeMap<[u32; 2], Vec<Side>>;
 
 fn edges(triangles: &[[u32; 3]], places: &[u32], uvs: Option<&[[f32; 2]]>) -> Edges {
@@ -85,6 +83,7 @@ fn edges(triangles: &[[u32; 3]], places: &[u32], uvs: Option<&[[f32; 2]]>) -> Ed
             edges.entry(ends).or_default().push(side);
         }
     }
+    edges.values_mut().for_each(|sides| sides.sort_by_key(|side| side.uv));
     edges
 }
 
@@ -105,8 +104,8 @@ fn seams(
     let mut borders: HashMap<usize, f32> = HashMap::new();
     let mut shared: BTreeMap<[usize; 2], (f32, [usize; 2])> = BTreeMap::new();
     for sides in edges.values() {
-        for side in sides {
-            if sides.iter().filter(|other| other.uv == side.uv).count() == 1 {
+        for same in sides.chunk_by(|a, b| a.uv == b.uv) {
+            if let [side] = same {
                 *borders.entry(islands.root(side.triangle)).or_default() += length(side.ends);
             }
         }

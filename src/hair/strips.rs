@@ -51,6 +51,8 @@ pub enum StripSort {
 pub enum NoStrips {
     /// It has no triangles.
     Empty,
+    /// A triangle refers to a vertex that is not there.
+    Broken,
     /// It is one closed surface about as long as it is wide, which has neither a root nor a tip.
     Closed,
     /// It has more than [`MAX_STRIPS`].
@@ -61,6 +63,7 @@ impl fmt::Display for NoStrips {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Empty => f.write_str("has no triangles"),
+            Self::Broken => f.write_str("refers to vertices that are not there"),
             Self::Closed => f.write_str("is one closed surface without a root and a tip"),
             Self::TooMany(count) => {
                 write!(f, "falls into {count} pieces that share no edges; at most {MAX_STRIPS} can be strips")
@@ -81,6 +84,9 @@ impl HairStrips {
             return Err(NoStrips::Empty);
         }
         let vertices = primitive.positions.len();
+        if primitive.indices.iter().any(|i| *i as usize >= vertices) {
+            return Err(NoStrips::Broken);
+        }
         let (places, place_count) = welded(&primitive.positions);
         let uvs = primitive.uvs.first().filter(|set| set.len() == vertices).map(Vec::as_slice);
         let given = |len: usize| len == vertices;

@@ -19,6 +19,8 @@ pub struct About {
     pub needs: &'static [&'static str],
     /// Debug channel: name and what it shows. Default: none.
     pub channel: Option<(&'static str, &'static str)>,
+    /// Further debug channels. Default: none.
+    pub more_channels: &'static [(&'static str, &'static str)],
     /// Whether it is a shading model of its own, in `wgsl/model`. Default: false.
     pub is_model: bool,
     /// Whether it works on surfaces without light, too. Default: false.
@@ -32,6 +34,11 @@ pub struct About {
 }
 
 impl About {
+    /// All its debug channels.
+    pub fn channels(&self) -> impl Iterator<Item = (&'static str, &'static str)> {
+        self.channel.into_iter().chain(self.more_channels.iter().copied())
+    }
+
     /// A section that needs and shows nothing.
     pub const NONE: Self = Self {
         key: "",
@@ -41,6 +48,7 @@ impl About {
         presets: &[],
         needs: &[],
         channel: None,
+        more_channels: &[],
         is_model: false,
         unlit: false,
         on_line: false,

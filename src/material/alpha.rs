@@ -37,7 +37,8 @@ crate::part! {
     }
 }
 
-/// How a blended surface lies over itself.
+/// How a blended surface lies over itself. Of materials with the same queue offset, those that are sorted come before those in
+/// layers: the middle of a head of hair says nothing of which eye stands before which strand.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Blending {
@@ -52,8 +53,8 @@ pub enum Blending {
     /// The opaque part with depth, then all layers in any order, weighted by their depth over the head, or over the part where
     /// there is no head (McGuire and Bavoil 2013, with w = alpha exp(6 (1 - t)), t from 0 at the near side of that sphere to 1 at
     /// its far side). Nearly opaque layers shine through those before them a little, and no order of triangles shows. Of several
-    /// actors, those that are farther away weigh less by the eighth power of their distance. What is weighted lies over what is
-    /// sorted.
+    /// actors, those that are farther away weigh less by the eighth power of their distance. What is weighted lies over
+    /// everything else.
     Weighted,
 }
 

@@ -92,6 +92,8 @@ sections! {
     outline: Option<Outline>,
     /// A coat of short hair. Default: none.
     fluff: Option<Fluff>,
+    /// Strips of hair. Default: none.
+    strips: Option<Strips>,
     /// What of it blooms. Default: none.
     glow: Option<Glow>,
 }

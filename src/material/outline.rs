@@ -131,7 +131,8 @@ impl Section for Outline {
         on.set("outline_mixed", self.is_mixed(of));
         on.set("outline_tint", self.tint.is_some());
         on.set("outline_from_shade", self.tint.is_some_and(|t| t.from == TintSource::Shade));
-        on.set("outline_vertex_width", self.vertex_width);
+        // Colours of strips of hair mean something else.
+        on.set("outline_vertex_width", self.vertex_width && of.material.strips.is_none());
     }
 
     fn is_on(&self, of: &Surroundings<'_>) -> bool {

@@ -22,8 +22,9 @@ pub(crate) struct Blended {
     pub draw: usize,
     /// In the list of the view.
     pub instances: Range<u32>,
-    /// Those that write depth first, then by queue offset; then far before near, squared; then by actor and file.
-    queue: (bool, i32),
+    /// Those that write depth first, then by queue offset, then those that do not lie over themselves in layers; then far before
+    /// near, squared; then by actor and file.
+    queue: (bool, i32, bool),
     depth: f32,
     place: (u32, usize),
 }
@@ -54,7 +55,7 @@ impl BlendedList {
             let mut push = |depth: f32, draw: usize, instances: Range<usize>, actor: u32| {
                 let of = &troupe.data().draws[draw];
                 let instances = instances.start as u32..instances.end as u32;
-                let (queue, place) = ((!of.write_depth, of.queue_offset), (actor, draw));
+                let (queue, place) = ((!of.write_depth, of.queue_offset, of.layered), (actor, draw));
                 draws.push(Blended { troupe: t, draw, instances, queue, depth, place });
             };
             if list.len() - first <= MOST_APART {

@@ -34,6 +34,8 @@ pub(crate) struct Draw {
     pub center: Vec3,
     pub has_vertex_colors: bool,
     pub blend: bool,
+    /// Whether it is blended in layers over itself, and not sorted.
+    pub layered: bool,
     /// Whether the opaque part of what is blended is drawn for itself.
     pub core: bool,
     /// Whether what is blended is weighted instead of sorted.
@@ -153,6 +155,7 @@ pub(super) fn draws(scene: &Scene, parts: &[Part], has_stencil: bool) -> Vec<Dra
             center: part.center,
             has_vertex_colors: part.has_vertex_colors,
             blend,
+            layered: material.blending() != Blending::Sorted,
             core,
             weighted: material.blending() == Blending::Weighted,
             write_depth: material.alpha.write_depth,

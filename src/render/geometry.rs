@@ -10,7 +10,7 @@ use super::{
     vertex::{DeformGroup, DeformVertex, MorphEntry, StaticVertex, pack_unit},
 };
 use crate::{
-    hair::{self, NoStrips},
+    hair::{self, HairStrips, NoStrips},
     material::{AlphaMode, Blending},
     scene::{FirstPerson, HumanBone, Influences, MorphTarget, Primitive, Role, Scene, Skin},
 };
@@ -105,8 +105,10 @@ impl Geometry {
         let over_bone = || Some(geometry.rig.head?.1.inverse().w_axis.truncate() + Vec3::Y * 0.1);
         let middle = scene.face_box(None).map(|(low, high)| (low + high) * 0.5).or_else(over_bone);
         geometry.rig.head_middle = middle.unwrap_or_default();
+        let hair = hair_of(scene, middle);
         let mut skin_palettes: HashMap<usize, u32> = HashMap::new();
         let mut parts: Vec<(u32, usize, &Primitive, DeformGroup, Mat4)> = Vec::new();
+        let mut strips: Vec<Option<Arranged>> = Vec::new();
         let in_head = below_head(scene);
         for (node_index, mesh) in scene.mesh_nodes() {
             let node = &scene.nodes[node_index];
@@ -147,6 +149,7 @@ impl Geometry {
                     ..DeformGroup::default()
                 };
                 parts.push((parts.len() as u32, node_index, primitive, group, rest_matrix));
+                strips.push(hair(primitive, &mesh.name, rest_matrix));
             }
         }
         geometry.moved_by_joint = vec![None; geometry.joint_count];
@@ -164,7 +167,8 @@ impl Geometry {
                 geometry.faults.push((primitive.material, fault));
                 None
             });
-            geometry.push(*id, primitive, strands.as_deref(), *group, *rest_matrix, &sight);
+            let strips = strips[*id as usize].as_ref();
+            geometry.push(*id, primitive, (strands.as_deref(), strips), *group, *rest_matrix, &sight);
             materials_by_id[*id as usize] = primitive.material;
         }
         let moved = geometry.moved_by_joint.iter();
@@ -177,12 +181,12 @@ impl Geometry {
         geometry
     }
 
-    /// `strands` take the place of tangents.
+    /// `strands` take the place of tangents, `strips` change the order of triangles.
     fn push(
         &mut self,
         id: u32,
         primitive: &Primitive,
-        strands: Option<&[[f32; 4]]>,
+        (strands, strips): (Option<&[[f32; 4]]>, Option<&Arranged>),
         mut group: DeformGroup,
         rest: Mat4,
         sight: &Sight,
@@ -208,9 +212,10 @@ impl Geometry {
                 outline_normal: pack_unit(primitive.outline_normals.get(v).copied().unwrap_or(normal)),
             });
             let ([u0, v0], [u1, v1]) = (uv(0, v), uv(1, v));
-            let color =
-                primitive.colors.get(v).map_or([255; 4], |c| c.map(|x| (x.clamp(0.0, 1.0) * 255.0).round() as u8));
-            self.static_vertices.push(StaticVertex { uv: [u0, v0, u1, v1], color, part: id });
+            let bare = strips.map_or([255; 4], |s| s.colors[v]);
+            let color = primitive.colors.get(v).map_or(bare, |c| c.map(|x| (x.clamp(0.0, 1.0) * 255.0).round() as u8));
+            let part = id | strips.map_or(0, |s| s.numbers[v] << 16);
+            self.static_vertices.push(StaticVertex { uv: [u0, v0, u1, v1], color, part });
             self.vertex_refs.push([group_index, self.morphs.len() as u32]);
             morphs.take(v as u32, &mut self.morphs);
             let world = rest.transform_point3(Vec3::from(position));
@@ -237,13 +242,14 @@ impl Geometry {
             let [a, b, c] = [t[0] + first, t[1] + first, t[2] + first];
             if mirrored { [a, c, b] } else { [a, b, c] }
         };
+        let indices = strips.map_or(&primitive.indices, |s| &s.indices);
         if sight.others {
-            self.indices.extend(primitive.indices.chunks_exact(3).flat_map(turned));
+            self.indices.extend(indices.chunks_exact(3).flat_map(turned));
         }
         let own = self.first_person.len() as u32;
         if sight.own {
             let of_head = |v: &u32| sight.is_of_head(primitive, *v as usize);
-            let kept = primitive.indices.chunks_exact(3).filter(|t| !t.iter().any(of_head));
+            let kept = indices.chunks_exact(3).filter(|t| !t.iter().any(of_head));
             self.first_person.extend(kept.flat_map(turned));
         }
         if low.cmple(high).all() {
@@ -329,6 +335,56 @@ fn eyes_and_hair(scene: &Scene, parts: &[Part]) -> Option<[(Vec3, f32); 2]> {
         low.cmple(high).all().then(|| ((low + high) * 0.5, (high - low).length() * 0.5 + swing))
     };
     Some([sphere(Mark::Eyes)?, sphere(Mark::Hair)?])
+}
+
+/// A primitive as strips of hair.
+struct Arranged {
+    /// Triangles in the order of their strips.
+    indices: Vec<u32>,
+    /// How far along its strip each vertex lies, 16 bits in red and green.
+    colors: Vec<[u8; 4]>,
+    /// By vertex: the strip in 8 bits, and its turn in 8 above.
+    numbers: Vec<u32>,
+}
+
+/// Finds the strips of primitives whose material asks for them: a primitive, the name of its mesh, what takes it to the
+/// character.
+fn hair_of(scene: &Scene, head: Option<Vec3>) -> impl Fn(&Primitive, &str, Mat4) -> Option<Arranged> {
+    move |primitive, mesh, rest| {
+        let material = scene.materials.get(primitive.material)?;
+        let settings = material.strips?;
+        let found = HairStrips::of(primitive, rest, head)
+            .map_err(|why| {
+                let name = &material.name;
+                tracing::warn!(
+                    "material {name:?}, strips: a part of mesh {mesh:?} {why}; it is drawn as it is and without occlusion, \
+                     please give it a material of its own"
+                );
+            })
+            .ok();
+        let vertices = primitive.positions.len();
+        let Some(found) = found else {
+            let (colors, numbers) = (vec![[255; 4]; vertices], vec![0; vertices]);
+            return Some(Arranged { indices: primitive.indices.clone(), colors, numbers });
+        };
+        let order = found.order(settings.sort);
+        let mut turns = vec![0; found.count];
+        let last = found.count.saturating_sub(1).max(1);
+        order.iter().enumerate().for_each(|(turn, strip)| turns[*strip as usize] = (turn * 255 / last) as u32);
+        let mut numbers = vec![0; vertices];
+        for (triangle, strip) in primitive.indices.chunks_exact(3).zip(&found.of_triangles) {
+            triangle.iter().for_each(|v| numbers[*v as usize] = strip & 0xff | turns[*strip as usize] << 8);
+        }
+        let place = |t: &f32| {
+            let [low, high] = ((t * 65535.0).round() as u16).to_le_bytes();
+            [high, low, 0, 0]
+        };
+        Some(Arranged {
+            indices: found.arranged(&primitive.indices, &order),
+            colors: found.along.iter().map(place).collect(),
+            numbers,
+        })
+    }
 }
 
 /// The sphere that weighted layers are weighed over: the head, or where there is none, what is weighted, half as large as the

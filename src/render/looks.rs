@@ -64,7 +64,7 @@ impl Looks {
         if let Some((key, message)) = material.clone().out_of_range() {
             return fault(&format!(" {:?}, {key}", material.name), message);
         }
-        let layers = |m: &Material| (m.blending(), m.has_core(), m.alpha.front_writes_depth);
+        let layers = |m: &Material| (m.blending(), m.has_core(), m.alpha.front_writes_depth, m.strips.map(|s| s.sort));
         let alpha = |m: &Material| (m.alpha.mode, m.alpha.hashed, m.alpha.write_depth, m.alpha.queue_offset);
         let fixed = |m: &Material| (alpha(m), m.double_sided, layers(m));
         let mut other = material.clone();

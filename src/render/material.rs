@@ -184,7 +184,10 @@ impl Composition {
         options.set("normal", is_lit);
         options.set("world", is_lit);
         options.set("uv", is_surface);
-        options.set("vertex_color", is_surface && vertex_colors);
+        // Those of strips of hair mean something else.
+        let has_strips = self.has("strips");
+        options.set("vertex_color", is_surface && vertex_colors && !has_strips);
+        options.set("strip_colors", is_surface && vertex_colors && has_strips);
         options.set("uv_transforms", self.driven_uvs || slots().any(moved));
         Recipe {
             pass,

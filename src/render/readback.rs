@@ -58,6 +58,29 @@ pub(crate) fn read(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Image> {
     Ok(picture([texture.width(), texture.height()], texture.format(), &texels))
 }
 
+/// Reads a texture of floats back.
+pub(crate) fn read_linear(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Vec<[f32; 4]>> {
+    use wgpu::TextureFormat as F;
+    let format = texture.format();
+    if !matches!(format, F::Rgba16Float | F::Rgba32Float) {
+        let message = format!("is {format:?}; expected Rgba16Float or Rgba32Float");
+        return Err(Error::Argument { what: "texture format".to_owned(), message });
+    }
+    let texels = gpu.scoped(|| read_texels(gpu, texture, super::FRAME_TIMEOUT))??;
+    Ok(texels
+        .chunks_exact(if format == F::Rgba16Float { 8 } else { 16 })
+        .map(|texel| std::array::from_fn(|i| float(format, texel, i)))
+        .collect())
+}
+
+/// A channel of a texel of floats.
+fn float(format: wgpu::TextureFormat, texel: &[u8], i: usize) -> f32 {
+    match format {
+        wgpu::TextureFormat::Rgba16Float => half::f16::from_le_bytes([texel[2 * i], texel[2 * i + 1]]).to_f32(),
+        _ => f32::from_le_bytes(std::array::from_fn(|b| texel[4 * i + b])),
+    }
+}
+
 /// Refuses a format that no picture is made of.
 pub(crate) fn check(format: wgpu::TextureFormat) -> Result<()> {
     use wgpu::TextureFormat as F;
@@ -78,10 +101,7 @@ pub(crate) fn check(format: wgpu::TextureFormat) -> Result<()> {
 /// PNG wants it.
 pub(crate) fn picture(size: [u32; 2], format: wgpu::TextureFormat, texels: &[u8]) -> Image {
     use wgpu::TextureFormat as F;
-    let float = |t: &[u8], i: usize| match format {
-        F::Rgba16Float => half::f16::from_le_bytes([t[2 * i], t[2 * i + 1]]).to_f32(),
-        _ => f32::from_le_bytes(std::array::from_fn(|b| t[4 * i + b])),
-    };
+    let float = |t: &[u8], i: usize| float(format, t, i);
     let code = |linear: f32| (srgb_from_linear(linear) * 255.0).round() as u8;
     let mut pixels: Vec<u8> = match format {
         F::Rgba16Float | F::Rgba32Float => texels

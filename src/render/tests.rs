@@ -94,6 +94,7 @@ fn requests(shaders: &Shaders, material: &Material, colors: bool, channel: Optio
         center: glam::Vec3::ZERO,
         has_vertex_colors: colors,
         blend: material.alpha.mode == AlphaMode::Blend,
+        layered: material.blending() != Blending::Sorted,
         core: material.has_core(),
         weighted: material.blending() == Blending::Weighted,
         write_depth: true,
@@ -144,7 +145,7 @@ fn every_section_alone_links_in_every_pass() {
             }
         }
         let material = material_with(&[about], true, AlphaMode::Mask);
-        materials.extend(about.channel.map(|(channel, _)| (material.clone(), Some(channel))));
+        materials.extend(about.channels().map(|(channel, _)| (material.clone(), Some(channel))));
         let mut hashed = material.clone();
         hashed.alpha.hashed = true;
         materials.push((hashed, None));
@@ -183,7 +184,7 @@ fn all_sections_that_go_together_link_in_every_pass() {
             }
         }
         let material = material_with(&kept, true, AlphaMode::Opaque);
-        let channels = LISTED.iter().filter_map(|a| a.channel);
+        let channels = LISTED.iter().flat_map(|a| a.channels());
         materials.extend(channels.map(|(channel, _)| (material.clone(), Some(channel))));
     }
     validate_all(&shaders, &materials);

@@ -6,6 +6,7 @@ use super::{MAX_TEXTURE_SIDE, Output, pass::encodes_srgb, vertex::unpack_unit};
 use crate::{
     Error, Result,
     color::Srgb,
+    material::About,
     motion::Pose,
     scene::{Camera, DepthRange, Framing, HumanBone, Image, Scene},
     stage::Stage,
@@ -112,7 +113,7 @@ impl Channel {
     pub fn all() -> impl Iterator<Item = (Self, &'static str, &'static str)> {
         // Sections may share one.
         let mut of_looks: Vec<(&str, &str)> = Vec::new();
-        for channel in crate::material::all().filter_map(|about| about.channel) {
+        for channel in crate::material::all().flat_map(About::channels) {
             if !of_looks.iter().any(|(name, _)| *name == channel.0) {
                 of_looks.push(channel);
             }

@@ -22,5 +22,6 @@ mod oracles;
 mod own_look;
 mod self_shadow;
 mod stage;
+mod strips;
 mod temporal;
 mod temporal_windows;

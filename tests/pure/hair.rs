@@ -153,6 +153,7 @@ fn strips_are_drawn_from_below_or_from_within() {
 fn what_is_no_hair_says_so() {
     let none = |p: &Primitive| HairStrips::of(p, Mat4::IDENTITY, None).expect_err("no strips");
     assert_eq!(none(&Primitive::default()), NoStrips::Empty);
+    assert_eq!(none(&Primitive { indices: vec![0, 1, 2], ..Primitive::default() }), NoStrips::Broken);
     let tetrahedron = Primitive {
         positions: vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
         indices: vec![0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2],
@@ -166,6 +167,28 @@ fn what_is_no_hair_says_so() {
     };
     assert_eq!(none(&soup), NoStrips::TooMany(20_000));
     assert!(none(&soup).to_string().contains("20000 pieces"));
+}
+
+/// A hundred thousand triangles at one edge, as a hostile file may have them, take no more than those of a strip.
+#[test]
+fn a_fan_of_very_many_triangles_takes_no_longer() {
+    let many = 100_000u32;
+    let fan = Primitive {
+        positions: (0..many + 2)
+            .map(|i| {
+                if i < 2 {
+                    [0.0, i as f32, 0.0]
+                } else {
+                    [i as f32, 0.0, 1.0]
+                }
+            })
+            .collect(),
+        indices: (2..many + 2).flat_map(|i| [0, 1, i]).collect(),
+        ..Primitive::default()
+    };
+    let start = std::time::Instant::now();
+    assert_eq!(found(&fan).count, 1);
+    assert!(start.elapsed().as_secs() < 20, "{:?}", start.elapsed());
 }
 
 #[test]

@@ -12,7 +12,7 @@ struct Varying {
     @if(tangent) @location(2) tangent: vec4f,
     // Both UV sets at rest.
     @if(uv) @location(3) uv: vec4f,
-    @if(vertex_color) @location(4) color: vec4f,
+    @if(vertex_color || strips) @location(4) color: vec4f,
     // Directional light in the frame of the face: x to the character's left, height (radians), angle over pi, and what
     // thresholds are compared with.
     @if(face_light) @location(5) @interpolate(flat) face_light: vec4f,
@@ -31,7 +31,8 @@ struct Varying {
     @if(weighed) @location(10) @interpolate(flat) weigh: vec3f,
     // How much is seen through hair.
     @if(opacity) @location(11) @interpolate(flat) opacity: f32,
-    @if(part) @location(12) @interpolate(flat) part: u32,
+    // Part of the character; in channels of strips of hair the strip.
+    @if(part || channel_strips || channel_strip_order) @location(12) @interpolate(flat) part: u32,
     // Depth in a map that is drawn from a light.
     @if(depth) @location(13) depth: f32,
     @if(actor) @location(14) @interpolate(flat) actor: u32,
@@ -54,7 +55,7 @@ fn surface_varying(v: Vertex) -> Varying {
 fn with_attributes(v: Vertex, given: Varying) -> Varying {
     var out = given;
     @if(uv) out.uv = v.uv;
-    @if(vertex_color) out.color = v.color;
+    @if(vertex_color || strips) out.color = v.color;
     @if(actor) out.actor = v.actor;
     return out;
 }

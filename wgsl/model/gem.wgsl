@@ -12,7 +12,7 @@ fn gem_model(s: Surface) -> Shaded {
     let m = &material.gem;
     // What highlights fade by.
     @if(toon) var l = toon_light(s, toon_border(s));
-    @if(!toon) var l = physical_light(s);
+    @if(!toon) var l = physical_light(s, s.n_dot_l > 0.0);
     // A shadow takes the key light; scattered light stays.
     let light = l.light * mix(0.3, 1.0, l.own_lit);
     let r = refract(-s.view, s.normal, 1.0 / m.ior);

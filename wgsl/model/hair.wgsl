@@ -211,7 +211,7 @@ fn hair_model(s: Surface) -> Shaded {
     let m = &material.hair;
     let strand = strand_of(s);
     @if(channel_strands) shown = strand.direction * 0.5 + 0.5;
-    var l = physical_light(s);
+    var l = physical_light(s, true);
     var direct = strand_lit(s, strand, frame.to_light, l.own_lit);
     direct.body *= s.light;
     direct.highlights *= s.light;

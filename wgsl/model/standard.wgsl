@@ -33,9 +33,9 @@ fn standard_lobe(s: Surface, m: Substance, to_light: vec3f) -> vec3f {
     return ((1.0 - f) * m.diffuse + mirrored) * n_dot_l;
 }
 
-// Light on a surface without tones: what of the key light arrives, by the looks that shade toon surfaces, and what comes from
-// all around.
-fn physical_light(s: Surface) -> Shaded {
+// Light on a surface without tones: what of the key light arrives where it is `wanted`, by the looks that shade toon surfaces,
+// and what comes from all around.
+fn physical_light(s: Surface, wanted: bool) -> Shaded {
     var l = shaded_of(s);
     var b: Border;
     b.lit = s.lit;
@@ -45,7 +45,7 @@ fn physical_light(s: Surface) -> Shaded {
     b.own_lit = 1.0;
     b.tint = vec3f(1.0);
     b.bangs = vec3f(1.0);
-    b.shading = f32(s.n_dot_l > 0.0);
+    b.shading = f32(wanted);
     b.soft = 1.0;
     l.shading = stage_shade(s, b).shading;
     l.own_lit = l.shading;
@@ -55,7 +55,7 @@ fn physical_light(s: Surface) -> Shaded {
 
 fn standard_model(s: Surface) -> Shaded {
     let numbers = &material.standard;
-    var l = physical_light(s);
+    var l = physical_light(s, s.n_dot_l > 0.0);
     var metallic = numbers.metallic;
     var roughness = numbers.roughness;
     var occlusion = 1.0;

@@ -13,7 +13,8 @@ fn vs_main(in: VertexInput) -> Varying {
     out.clip_position = frame.clip_from_world * vec4f(position, 1.0);
     @if(world) out.world_position = position;
     @if(normal) out.normal = world_direction(v, v.frame.x);
-    @if(part) out.part = v.part;
+    // Strips of hair have the bits above.
+    @if(part) out.part = v.part & 0xffffu;
     return with_attributes(v, out);
 }
 

@@ -7,7 +7,7 @@ import package::bind::vertex::{VertexInput, vertex_of, world_position};
 import package::lib::weighted::{weighted_layer, weighted_nearness, weighted_place, weighted_weight};
 import package::material::{material, stage_left};
 
-struct Layer {
+struct WeightedSums {
     // Linear colour and alpha, times weight.
     @location(0) sums: vec4f,
     // Product of what each leaves: blended as such.
@@ -15,9 +15,9 @@ struct Layer {
 }
 
 // Keeps weights within what halves hold: 0.05 to 20 instead of 1 to 403.
-const SCALE = 0.049787068;
+const WEIGHT_SCALE = 0.049787068;
 // Brighter light would overflow the sums of a dozen layers.
-const BRIGHTEST = 200.0;
+const BRIGHTEST_WEIGHTED = 200.0;
 
 @vertex
 fn vs_main(in: VertexInput) -> Varying {
@@ -31,7 +31,7 @@ fn vs_main(in: VertexInput) -> Varying {
 }
 
 @fragment
-fn fs_main(in: Varying, @builtin(front_facing) front_facing: bool) -> Layer {
+fn fs_main(in: Varying, @builtin(front_facing) front_facing: bool) -> WeightedSums {
     let d = drawn(in, front_facing);
     let alpha = saturate(d.alpha) * stage_left(in);
     if alpha < material.base.least_alpha {
@@ -42,6 +42,6 @@ fn fs_main(in: Varying, @builtin(front_facing) front_facing: bool) -> Layer {
         discard;
     }
     let place = weighted_place(distance_here(in.clip_position), in.weigh.x, in.weigh.y);
-    let weight = weighted_weight(alpha, place) * in.weigh.z * SCALE;
-    return Layer(weighted_layer(clamp(d.color, vec3f(0.0), vec3f(BRIGHTEST)), alpha, weight), vec4f(alpha));
+    let weight = weighted_weight(alpha, place) * in.weigh.z * WEIGHT_SCALE;
+    return WeightedSums(weighted_layer(clamp(d.color, vec3f(0.0), vec3f(BRIGHTEST_WEIGHTED)), alpha, weight), vec4f(alpha));
 }

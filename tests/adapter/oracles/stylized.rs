@@ -36,6 +36,33 @@ fn fur_masks_partition_unity() {
     }
 }
 
+#[test]
+fn strips_are_dark_at_their_roots() {
+    let file = vectors("stylized.json");
+    let list = cases(&file, "strip_ao");
+    let rows: Vec<Vec<f32>> = list.iter().map(|c| numbers(c, &["t", "k"])).collect();
+    let body = "write3(out, strip_occlusion(input[base], vec3f(0.0, input[base + 1u], 2.0 * input[base + 1u])));";
+    for (i, (case, found)) in list.iter().zip(run(&["strips"], body, &rows, 3)).enumerate() {
+        let ao = numbers(case, &["ao"])[0];
+        assert_close("strip", i, &found, &[1.0, ao, ao * ao], 1e-6);
+    }
+}
+
+/// 16 bits of a place go through a colour of 8 bits a number, and between two vertices.
+#[test]
+fn places_along_a_strip_go_through_colours() {
+    let bytes = |t: f32| ((t * 65535.0).round() as u16).to_be_bytes().map(|b| f32::from(b) / 255.0);
+    let pairs = [(0.0, 1.0), (0.2, 0.2039), (0.4999, 0.5001)];
+    let rows: Vec<Vec<f32>> = pairs.map(|(a, b)| [bytes(a), bytes(b)].concat()).into();
+    let body = "
+        let a = vec4f(input[base], input[base + 1u], 0.0, 0.0);
+        let b = vec4f(input[base + 2u], input[base + 3u], 0.0, 0.0);
+        write3(out, vec3f(strip_place(a), strip_place(b), strip_place(mix(a, b, 0.25))));";
+    for (i, ((a, b), found)) in pairs.iter().zip(run(&["strips"], body, &rows, 3)).enumerate() {
+        assert_close("place", i, &found, &[*a, *b, a + (b - a) * 0.25], 2e-5);
+    }
+}
+
 /// A ramp of bands begins with the shade and ends with the light, exactly, and passes the terminator between.
 #[test]
 fn bands_of_a_ramp_end_in_shade_and_light() {

@@ -110,7 +110,7 @@ fn plain(about: &About, is_whole: bool) -> String {
     if !about.presets.is_empty() {
         text.push_str(&format!("  presets: {}\n", about.presets.iter().map(|p| p.name).collect::<Vec<_>>().join(", ")));
     }
-    if let Some((name, shows)) = about.channel {
+    for (name, shows) in about.channels() {
         text.push_str(&format!("  channel {name}: {shows}\n"));
     }
     let width = |column: fn(&Row) -> &str| list.iter().map(|r| column(r).chars().count()).max().unwrap_or(0);

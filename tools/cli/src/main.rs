@@ -4,6 +4,7 @@ mod adapters;
 mod animation;
 mod args;
 mod bench;
+mod compare_real;
 mod compare_references;
 mod deadline;
 mod failure;
@@ -78,6 +79,9 @@ enum Command {
     /// Compare with reference pictures of another renderer.
     #[command(hide = true)]
     CompareReferences(compare_references::Args),
+    /// Compare with pictures of real assets by a path tracer.
+    #[command(hide = true)]
+    CompareReal(compare_real::Args),
 }
 
 fn main() {
@@ -127,5 +131,6 @@ fn run(command: Command) -> Result<(), Failure> {
         Command::Bench(args) => bench::run(&args),
         Command::Adapters(args) => adapters::run(&args),
         Command::CompareReferences(args) => compare_references::run(&args),
+        Command::CompareReal(args) => compare_real::run(&args),
     }
 }

@@ -52,7 +52,7 @@ fn main() {
 fn run(task: &str, args: &[String]) -> Outcome {
     // Tasks work from the repository's folder, wherever they are called; a path that they are given stays what it was.
     let args: Vec<String> = match task {
-        "demo" | "same" | "badinput" | "compare-references" => args.iter().map(|arg| full_path(arg)).collect(),
+        "demo" | "same" | "badinput" | "compare-references" | "compare-real" => args.iter().map(|arg| full_path(arg)).collect(),
         _ => args.to_vec(),
     };
     let root = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../..");
@@ -70,6 +70,17 @@ fn run(task: &str, args: &[String]) -> Outcome {
                 command.push("../shared/models");
             }
             cargo::run(&with(&command, &args), &driver::ensure()?)
+        }
+        "compare-real" => {
+            let mut command = vec!["run", "--quiet", "--release", "-p", "hikage-cli", "--", "compare-real"];
+            let what = args.first().filter(|first| !first.starts_with('-')).ok_or_else(|| {
+                Stop(2, "compare-real: say what is compared: cargo xtask compare-real hair [FOLDER]".into())
+            })?;
+            command.push(what);
+            if args.get(1).is_none_or(|folder| folder.starts_with('-')) {
+                command.push("../shared/real");
+            }
+            cargo::run(&with(&command, &args[1..]), &driver::ensure()?)
         }
         "vrm-check" => vrm_check::run(args.as_slice()),
         "badinput" => badinput::run(&args),

@@ -1,0 +1,274 @@
+//! `hikage compare-real`: our pictures of real assets beside those of a path tracer, with the figures of its scorer.
+//!
+//! `DIR/reference/NAME.json` states model, camera, light and material of `NAME.npz`; models lie in `DIR/models`. Our pictures are
+//! written as linear `NAME.npy`, and `DIR/compare_real.py` scores them.
+
+mod hair;
+mod scorer;
+mod strands;
+
+use std::fs::File;
+use std::io::BufWriter;
+use std::path::{Path, PathBuf};
+
+use glam::Vec3;
+use hikage::color::LinearRgb;
+use hikage::picture::read_linear;
+use hikage::scene::{Ambient, Camera, DirectionalLight, Lights, Scene};
+use hikage::{Actor, Background, Gpu, Output, Renderer, Stage, View, wgpu};
+use npyz::WriterBuilder as _;
+use serde::{Deserialize, Serialize};
+
+use crate::failure::Failure;
+use crate::output::{make_folder, print, print_json};
+use crate::setup;
+use crate::spinner::Spinner;
+
+/// Arguments of `hikage compare-real`.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Examples:
+  hikage compare-real hair ../shared/real
+  hikage compare-real hair ../shared/real --only 'hair_arch_*' --json
+
+The scorer is Python and needs numpy, scipy and pillow (Debian: apt install python3-numpy python3-scipy python3-pil).")]
+pub(crate) struct Args {
+    /// What is compared.
+    #[arg(value_enum)]
+    what: What,
+    /// Folder with models/, reference/ and compare_real.py.
+    dir: PathBuf,
+    /// Only references whose name fits; * stands for anything.
+    #[arg(long, value_name = "GLOB")]
+    only: Option<String>,
+    /// Where our pictures are written [default: a folder hikage-compare-real among temporary files].
+    #[arg(long, value_name = "OUTDIR")]
+    write: Option<PathBuf>,
+    /// Adapter, by a part of its name.
+    #[arg(long, value_name = "NAME")]
+    adapter: Option<String>,
+    /// Print JSON: all figures of the scorer.
+    #[arg(long)]
+    json: bool,
+}
+
+/// What is compared.
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum What {
+    /// Scenes hair_arch, hair_sphere and those of hairstyles that have cards.
+    Hair,
+}
+
+/// The part of a reference's description that all kinds have.
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+struct Reference {
+    model: String,
+    width: u32,
+    height: u32,
+    camera: ReferenceCamera,
+    light: ReferenceLight,
+    core: Option<String>,
+    material: serde_json::Value,
+    bounces: Bounces,
+}
+
+#[derive(Deserialize)]
+struct Bounces {
+    max: u32,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+struct ReferenceCamera {
+    eye: [f32; 3],
+    target: [f32; 3],
+    up: [f32; 3],
+    fov_y_deg: f32,
+    near: f32,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+struct ReferenceLight {
+    dir_to_light: [f32; 3],
+    color_linear: [f32; 3],
+    unit_intensity: f32,
+}
+
+#[derive(Serialize)]
+struct Row {
+    name: String,
+    figures: serde_json::Value,
+}
+
+#[derive(Serialize)]
+struct Outcome {
+    adapter: String,
+    rows: Vec<Row>,
+    failed: Vec<(String, String)>,
+}
+
+pub(crate) fn run(args: &Args) -> Result<(), Failure> {
+    let What::Hair = args.what;
+    let root = args.dir.join("reference");
+    let names = names(&root, args.only.as_deref().unwrap_or("*"))?;
+    let out = args.write.clone().unwrap_or_else(|| std::env::temp_dir().join("hikage-compare-real"));
+    make_folder(&out)?;
+    let scorer = scorer::Scorer::find(&args.dir)?;
+    let spinner = Spinner::new();
+    let gpu = setup::gpu(args.adapter.as_deref())?;
+    let mut outcome = Outcome { adapter: gpu.info().name.clone(), rows: Vec::new(), failed: Vec::new() };
+    for (index, name) in names.iter().enumerate() {
+        spinner.step(format!("{} of {}: {name}", index + 1, names.len()));
+        let compared = || -> Result<serde_json::Value, Failure> {
+            let file = root.join(name).with_extension("json");
+            let fail = |what: String| Failure::input(format!("{}: {what}", file.display()));
+            let of: Reference =
+                serde_json::from_slice(&setup::read_small(&file)?).map_err(|e| fail(e.to_string()))?;
+            let picture = out.join(name).with_extension("npy");
+            let hair::Shot { scenes, scale } = hair::shot(&args.dir, &of).map_err(fail)?;
+            let texels = drawn(&gpu, &of, scenes, scale)?;
+            write_npy(&picture, [of.width, of.height], &texels)?;
+            scorer.hair(&root.join(name), &picture)
+        };
+        match compared() {
+            Ok(figures) => outcome.rows.push(Row { name: name.clone(), figures }),
+            Err(failure) => outcome.failed.push((name.clone(), failure.to_string())),
+        }
+    }
+    drop(spinner);
+    if args.json {
+        print_json(&outcome)?;
+    } else {
+        let lines = outcome.rows.iter().map(|row| scorer::line(&row.name, &row.figures));
+        let failed = outcome.failed.iter().map(|(name, why)| format!("{name}: {why}\n"));
+        print(&lines.chain(failed).collect::<String>())?;
+    }
+    match outcome.failed.len() {
+        0 => Ok(()),
+        n => Err(Failure::input(format!("{n} of {} references could not be compared", names.len()))),
+    }
+}
+
+/// Names of the references that are asked for, sorted.
+fn names(root: &Path, glob: &str) -> Result<Vec<String>, Failure> {
+    let listed = std::fs::read_dir(root).map_err(|e| Failure::input(format!("{}: {e}", root.display())))?;
+    let mut names: Vec<String> = listed
+        .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
+        .filter_map(|file| Some(file.strip_suffix(".npz")?.to_owned()))
+        .filter(|name| hair::is_scene(name) && fits(glob, name))
+        .collect();
+    names.sort();
+    if names.is_empty() {
+        return Err(Failure::input(format!("{}: has no reference of hair whose name fits {glob:?}", root.display())));
+    }
+    Ok(names)
+}
+
+/// Whether a name fits a pattern in which `*` stands for anything.
+fn fits(glob: &str, name: &str) -> bool {
+    match glob.split_once('*') {
+        None => glob == name,
+        Some((before, rest)) => name.strip_prefix(before).is_some_and(|tail| {
+            (0..=tail.len()).filter(|at| tail.is_char_boundary(*at)).any(|at| fits(rest, &tail[at..]))
+        }),
+    }
+}
+
+/// Our picture of a reference: linear, premultiplied. It is drawn `scale` times as large.
+fn drawn(gpu: &Gpu, of: &Reference, scenes: Vec<Scene>, scale: u32) -> Result<Vec<[f32; 4]>, Failure> {
+    let output = Output { format: wgpu::TextureFormat::Rgba16Float, ..Output::default() };
+    let renderer = Renderer::with_output(gpu, output)?;
+    let mut actors = Vec::new();
+    for mut scene in scenes {
+        scene.post = None;
+        actors.push(Actor::new(&renderer.upload(&scene)?));
+    }
+    let mut stage = Stage::of(actors);
+    stage.lights = Lights {
+        directional: DirectionalLight {
+            to_light: Vec3::from(of.light.dir_to_light).normalize_or(Vec3::Z),
+            color: LinearRgb(of.light.color_linear),
+            intensity: of.light.unit_intensity,
+        },
+        ambient: Ambient::uniform(LinearRgb::BLACK),
+        ..Lights::default()
+    };
+    let size = [of.width * scale, of.height * scale];
+    let view = View {
+        size,
+        camera: Camera {
+            eye: of.camera.eye.into(),
+            target: of.camera.target.into(),
+            up: of.camera.up.into(),
+            fov_y_rad: of.camera.fov_y_deg.to_radians(),
+            near: of.camera.near,
+            ..Camera::default()
+        },
+        background: Background::Transparent,
+        ..View::default()
+    };
+    let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("picture"),
+        size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: output.format,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
+        view_formats: &[],
+    });
+    let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+    renderer.prepare(&mut encoder, &mut stage)?;
+    renderer.draw(&mut encoder, &stage, &view, &texture.create_view(&wgpu::TextureViewDescriptor::default()))?;
+    gpu.queue.submit([encoder.finish()]);
+    Ok(averaged(&read_linear(gpu, &texture)?, size, scale))
+}
+
+/// Means of squares of `scale` texels a side.
+fn averaged(texels: &[[f32; 4]], size: [u32; 2], scale: u32) -> Vec<[f32; 4]> {
+    let (width, height, scale) = ((size[0] / scale) as usize, (size[1] / scale) as usize, scale as usize);
+    let mean = |x: usize, y: usize| {
+        let mut sum = [0f64; 4];
+        for dy in 0..scale {
+            let first = (y * scale + dy) * width * scale + x * scale;
+            for texel in &texels[first..first + scale] {
+                sum.iter_mut().zip(texel).for_each(|(sum, x)| *sum += f64::from(*x));
+            }
+        }
+        sum.map(|s| (s / (scale * scale) as f64) as f32)
+    };
+    (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| mean(x, y)).collect()
+}
+
+fn write_npy(path: &Path, [width, height]: [u32; 2], texels: &[[f32; 4]]) -> Result<(), Failure> {
+    let fail = |e: std::io::Error| Failure::input(format!("{}: {e}", path.display()));
+    let file = File::create(path).map_err(fail)?;
+    let shape = [u64::from(height), u64::from(width), 4];
+    let mut writer = npyz::WriteOptions::new()
+        .default_dtype()
+        .shape(&shape)
+        .writer(BufWriter::new(file))
+        .begin_nd()
+        .map_err(fail)?;
+    writer.extend(texels.iter().flatten().copied()).map_err(fail)?;
+    writer.finish().map_err(fail)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn stars_stand_for_anything() {
+        assert!(fits("*", "hair_arch") && fits("hair_*_back", "hair_arch_brown_back") && fits("hair", "hair"));
+        assert!(!fits("hair_*_back", "hair_arch_front") && !fits("hair", "hairs"));
+    }
+
+    #[test]
+    fn pictures_are_averaged_by_squares() {
+        let texels: Vec<[f32; 4]> = (0..8u8).map(|i| [f32::from(i); 4]).collect();
+        assert_eq!(averaged(&texels, [4, 2], 2), [[2.5; 4], [4.5; 4]]);
+    }
+}

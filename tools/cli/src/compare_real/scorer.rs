@@ -1,0 +1,71 @@
+//! The scorer of a folder of references: a Python program that prints figures as JSON.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use serde_json::Value;
+
+use crate::failure::Failure;
+
+/// How it is run.
+pub(super) struct Scorer {
+    python: &'static str,
+    program: PathBuf,
+}
+
+impl Scorer {
+    /// That of a folder, with a Python that has what it needs.
+    pub(super) fn find(dir: &Path) -> Result<Self, Failure> {
+        let program = dir.join("compare_real.py");
+        if !program.is_file() {
+            return Err(Failure::input(format!("{}: is not there; expected the scorer of the references", program.display())));
+        }
+        let serves = |python: &&str| {
+            let asked = Command::new(python).args(["-c", "import numpy, scipy, PIL"]).output();
+            asked.is_ok_and(|done| done.status.success())
+        };
+        match ["python3", "/usr/bin/python3"].into_iter().find(serves) {
+            Some(python) => Ok(Self { python, program }),
+            None => Err(Failure::input(
+                "no python3 with numpy, scipy and pillow; on Debian and Ubuntu: apt install python3-numpy python3-scipy python3-pil",
+            )),
+        }
+    }
+
+    /// Figures of a picture of hair.
+    pub(super) fn hair(&self, reference: &Path, picture: &Path) -> Result<Value, Failure> {
+        let done = Command::new(self.python)
+            .arg("-B")
+            .arg(&self.program)
+            .arg("hair")
+            .args([reference, picture])
+            .output()
+            .map_err(|e| Failure::input(format!("{}: {e}", self.python)))?;
+        if !done.status.success() {
+            let text = String::from_utf8_lossy(&done.stderr);
+            let last = text.lines().last().unwrap_or("no figures").to_owned();
+            return Err(Failure::input(format!("{}: {last}", self.program.display())));
+        }
+        serde_json::from_slice(&done.stdout).map_err(|e| Failure::input(format!("{}: {e}", self.program.display())))
+    }
+}
+
+/// The figures of a scene in a line.
+pub(super) fn line(name: &str, figures: &Value) -> String {
+    let number = |v: &Value| v.as_f64().map_or("-".to_owned(), |x| format!("{x:.3}"));
+    let list = |v: &Value| v.as_array().into_iter().flatten().map(number).collect::<Vec<_>>().join(" ");
+    let mut text = format!(
+        "{name}: energy {}  dE mean {} p95 {}  chroma {}",
+        list(&figures["energyRatioCandOverRef"]),
+        number(&figures["blur8"]["dE2000mean"]),
+        number(&figures["blur8"]["dE2000p95"]),
+        number(&figures["chroma"]["maxAbsDiff"]),
+    );
+    for (color, lobe) in figures["lobes"].as_object().into_iter().flatten() {
+        let step = |key: &str| lobe["cand"][key].as_f64().zip(lobe["ref"][key].as_f64()).map(|(ours, theirs)| ours - theirs);
+        if let (Some(middle), Some(width)) = (step("centroidTopHalfDeg"), step("fwhmDeg")) {
+            text += &format!("  {color} {middle:+.2} deg, width {width:+.2}");
+        }
+    }
+    text + "\n"
+}
