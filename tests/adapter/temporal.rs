@@ -126,7 +126,7 @@ fn the_mean_of_many_pictures_is_one_with_many_samples() {
     let shot = view(96, 4.0).view();
     let scene = still_life(Some(OutlineWidth::Screen { height_ratio: 0.01 }));
     let clear = View { background: Background::Transparent, ..shot.clone() };
-    let ground = Ground { grid: Some(Grid::default()), middle: Vec3::Y * -0.6, ..Ground::default() };
+    let ground = Ground { grid: Some(Grid::default()), middle: Vec3::Y * -0.6, radius_m: 3.0, ..Ground::default() };
     let toned = Post { tone: ToneCurve::Filmic, ..Post::default() };
     let cases = [("colour", &shot, None, None), ("clear", &clear, None, None), ("ground", &shot, Some(ground), None), ("post", &clear, None, Some(toned))];
     for (name, view, ground, post) in cases {

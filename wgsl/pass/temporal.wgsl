@@ -135,7 +135,7 @@ fn fs_main(in: PictureVarying) -> Resolved {
     let is_same = known.x >= low * (0.95 - temporal.eye_moved * low) && known.x <= high * (1.05 + temporal.eye_moved * high);
     let around = wide / temporal.near;
     let is_same_around = known.w >= around * 0.95 && known.w <= around * 1.05;
-    let is_known = temporal.is_continued > 0.5 && is_inside && is_same && (is_same_around || !has_others);
+    let is_known = temporal.is_continued > 0.5 && is_inside && ((is_same && (is_same_around || !has_others)) || (is_still && is_same_around));
 
     let mean = sum / 9.0;
     let spread = sqrt(max(squares / 9.0 - mean * mean, vec4f(0.0)));
