@@ -94,7 +94,8 @@ impl<'a> Shown<'a> {
 
     /// What is done to the whole of it: what is laid over something goes the same way.
     fn post(self, stage: &Stage, target: &Target<'_>, output: Output) -> Option<Post> {
-        let post = stage.post.filter(|_| self.is_finished()).map(|p| Post { antialias: self.antialias(p.antialias), ..p });
+        let post =
+            stage.post.filter(|_| self.is_finished()).map(|p| Post { antialias: self.antialias(p.antialias), ..p });
         let plain = Post { bloom: None, tone: ToneCurve::None, antialias: Antialias::None };
         post.or_else(|| target.is_laid_over(output).then_some(plain))
     }
@@ -588,7 +589,10 @@ impl PostTargets {
 }
 
 /// Without bloom its strength is 0, and any picture will do.
-fn spread<'a>(picture: &'a wgpu::TextureView, light: Option<&'a (wgpu::TextureView, BloomChain)>) -> &'a wgpu::TextureView {
+fn spread<'a>(
+    picture: &'a wgpu::TextureView,
+    light: Option<&'a (wgpu::TextureView, BloomChain)>,
+) -> &'a wgpu::TextureView {
     light.map_or(picture, |(glow, _)| glow)
 }
 

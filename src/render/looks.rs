@@ -63,7 +63,8 @@ impl Looks {
         if let Some((key, message)) = material.clone().out_of_range() {
             return fault(&format!(" {:?}, {key}", material.name), message);
         }
-        let fixed = |m: &Material| (m.alpha.mode, m.alpha.hashed, m.alpha.write_depth, m.alpha.queue_offset, m.double_sided);
+        let fixed =
+            |m: &Material| (m.alpha.mode, m.alpha.hashed, m.alpha.write_depth, m.alpha.queue_offset, m.double_sided);
         let mut other = material.clone();
         let sections: Vec<&str> = other.sections_mut().map(|section| section.about().key).collect();
         let composed = Composition::new(shaders, &self.surroundings(index, material));
