@@ -1,4 +1,5 @@
-//! A character in a window of the application's own device: drag to orbit, scroll to come nearer, drop a file to load it.
+//! A character in a window of the application's own device: drag to orbit, scroll to come nearer, drop a file to load it, click
+//! right to switch temporal antialiasing.
 //!
 //! `cargo run --release --example window -- MODEL.vrm`
 
@@ -9,7 +10,7 @@ use hikage::{
     Actor, Background, Gpu, Output, Renderer, Stage, View,
     color::Srgb,
     import,
-    scene::{Camera, Framing, Scene},
+    scene::{Antialias, Camera, Framing, Scene},
 };
 use winit::{
     application::ApplicationHandler,
@@ -162,6 +163,13 @@ impl App {
             },
             WindowEvent::MouseInput { state, button: MouseButton::Left, .. } => {
                 shown.orbit.dragging = state == ElementState::Pressed;
+            }
+            WindowEvent::MouseInput { state: ElementState::Pressed, button: MouseButton::Right, .. } => {
+                let post = shown.stage.post.get_or_insert_default();
+                post.antialias = match post.antialias {
+                    Antialias::Temporal => Antialias::Fxaa,
+                    _ => Antialias::Temporal,
+                };
             }
             WindowEvent::CursorMoved { position, .. } => {
                 let moved = [position.x - shown.orbit.cursor[0], position.y - shown.orbit.cursor[1]];

@@ -53,6 +53,11 @@ crate::section! {
     Hair = "hair" {
         is_model: true, needs: &["tangent"],
         channel: Some(("strands", "Hair that is lit as strands: their direction in the world, -1..1 as 0..1.")),
+        more_channels: &[
+            ("hair-primary", "Primary highlight of lit hair: what is mirrored on its strands."),
+            ("hair-secondary", "Secondary highlight of lit hair: what was inside of its strands."),
+            ("hair-indirect", "Light from all around on lit hair."),
+        ],
     }
     {
         /// How strands are lit: `fibre` or `kajiya-kay`.

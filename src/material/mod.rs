@@ -122,7 +122,11 @@ impl Material {
 
     /// How it is drawn: what noise cuts is masked.
     pub(crate) fn drawn_mode(&self) -> AlphaMode {
-        if self.is_hashed() { AlphaMode::Mask } else { self.alpha.mode }
+        if self.is_hashed() {
+            AlphaMode::Mask
+        } else {
+            self.alpha.mode
+        }
     }
 
     /// Visits every texture: its key, how it is read, value.

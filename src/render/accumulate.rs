@@ -39,8 +39,7 @@ impl Renderer {
             }
         };
         self.gpu().scoped(|| {
-            // Four samples lie within a pixel already: places that fill all of it would blur.
-            let reach = if self.output.samples == 4 { 0.5 } else { 1.0 };
+            let reach = self.output.reach();
             let mut sum = Sum::new(self.output.format);
             for (place, frame) in places(frames).into_iter().zip(view.frame..) {
                 let [x, y] = [0, 1].map(|i| (view.jitter_px[i] + place[i] * reach).clamp(-1.0, 1.0));

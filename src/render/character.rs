@@ -254,7 +254,8 @@ impl CharacterData {
             let request = velocity::request(of, material, draw.has_vertex_colors);
             Ok(self.bind(&variants.gpu, variants.get(&request)?, draw.material))
         };
-        let made = self.draws.iter().map(|draw| (!draw.blend).then(|| drawn(draw)).transpose()).collect::<Result<_>>()?;
+        let made =
+            self.draws.iter().map(|draw| (!draw.blend).then(|| drawn(draw)).transpose()).collect::<Result<_>>()?;
         Ok(Arc::clone(self.velocities.get_or_init(|| made)))
     }
 

@@ -325,10 +325,8 @@ impl Frame {
             Some(temporal) => temporal,
             none => none.insert(Temporal::new(&r.variants)?),
         };
-        // Four samples lie within a pixel already.
-        let reach = if r.output.samples == 4 { 0.5 } else { 1.0 };
         let ground_y = stage.ground.as_ref().map(|ground| ground.middle.y);
-        Ok(temporal.begin(r.gpu(), view, &stage.bodies.past, ground_y, reach))
+        Ok(temporal.begin(r.gpu(), view, &stage.bodies.past, ground_y, r.output.reach()))
     }
 
     /// What moved in the last picture that followed another.
@@ -760,6 +758,9 @@ impl PostTargets {
 }
 
 /// Without bloom its strength is 0, and any picture will do.
-fn spread<'a>(picture: &'a wgpu::TextureView, light: Option<&'a (wgpu::TextureView, BloomChain)>) -> &'a wgpu::TextureView {
+fn spread<'a>(
+    picture: &'a wgpu::TextureView,
+    light: Option<&'a (wgpu::TextureView, BloomChain)>,
+) -> &'a wgpu::TextureView {
     light.map_or(picture, |(glow, _)| glow)
 }

@@ -102,6 +102,14 @@ impl Output {
     }
 }
 
+impl Output {
+    /// Share of a pixel over which pictures are moved that are averaged. Four samples lie within a pixel already: places that
+    /// fill all of it would blur.
+    pub(crate) fn reach(self) -> f32 {
+        if self.samples == 4 { 0.4 } else { 1.0 }
+    }
+}
+
 impl Default for Output {
     fn default() -> Self {
         Self { format: wgpu::TextureFormat::Rgba8UnormSrgb, samples: 4, depth: None }

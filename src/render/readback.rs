@@ -163,7 +163,8 @@ impl Sum {
                 F::Rgba16Float => std::array::from_fn(|i| half::f16::from_le_bytes([t[2 * i], t[2 * i + 1]]).to_f32()),
                 F::Rgba32Float => std::array::from_fn(|i| f32::from_le_bytes([0, 1, 2, 3].map(|b| t[4 * i + b]))),
                 _ => {
-                    let [r, g, b] = if is_bgra { [2, 1, 0] } else { [0, 1, 2] }.map(|i: usize| decoded[usize::from(t[i])]);
+                    let [r, g, b] =
+                        if is_bgra { [2, 1, 0] } else { [0, 1, 2] }.map(|i: usize| decoded[usize::from(t[i])]);
                     [r, g, b, f32::from(t[3]) / 255.0]
                 }
             };

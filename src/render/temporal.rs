@@ -100,7 +100,11 @@ impl Temporal {
         let [x, y] = [0, 1].map(|i| (view.jitter_px[i] + place[i] * reach).clamp(-1.0, 1.0));
         let step = Step {
             world_from_clip: clip_from_world.inverse(),
-            clip_before: if is_continued { history.clip_from_world } else { clip_from_world },
+            clip_before: if is_continued {
+                history.clip_from_world
+            } else {
+                clip_from_world
+            },
             eye: view.camera.eye,
             near: view.camera.near,
             size: view.size,
@@ -144,7 +148,13 @@ impl Temporal {
         let groups = history.groups.take().filter(|groups| groups.made_of == made_of);
         let means = &history.means;
         // Without bloom the picture stands for the light that spreads.
-        let spread_of = |mean: &Means| if spread == picture { mean.color().clone() } else { spread.clone() };
+        let spread_of = |mean: &Means| {
+            if spread == picture {
+                mean.color().clone()
+            } else {
+                spread.clone()
+            }
+        };
         let groups = groups.unwrap_or_else(|| Groups {
             made_of,
             temporal: [1, 0].map(|before| pass.group(gpu, picture, moved, &means[before])),

@@ -89,8 +89,7 @@ impl Bodies {
                 }
             };
             new_slots.clear();
-            troupe.past =
-                Some(TroupePast { deformed, group, is_stale: !troupe.moved.is_empty(), is_new, new_slots });
+            troupe.past = Some(TroupePast { deformed, group, is_stale: !troupe.moved.is_empty(), is_new, new_slots });
         }
         past.rows.clear();
         for body in list.iter_mut() {

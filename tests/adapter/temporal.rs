@@ -126,9 +126,14 @@ fn the_mean_of_many_pictures_is_one_with_many_samples() {
     let shot = view(96, 4.0).view();
     let scene = still_life(Some(OutlineWidth::Screen { height_ratio: 0.01 }));
     let clear = View { background: Background::Transparent, ..shot.clone() };
-    let ground = Ground { grid: Some(Grid::default()), middle: Vec3::Y * -0.6, ..Ground::default() };
+    let ground = Ground { grid: Some(Grid::default()), middle: Vec3::Y * -0.6, radius_m: 3.0, ..Ground::default() };
     let toned = Post { tone: ToneCurve::Filmic, ..Post::default() };
-    let cases = [("colour", &shot, None, None), ("clear", &clear, None, None), ("ground", &shot, Some(ground), None), ("post", &clear, None, Some(toned))];
+    let cases = [
+        ("colour", &shot, None, None),
+        ("clear", &clear, None, None),
+        ("ground", &shot, Some(ground), None),
+        ("post", &clear, None, Some(toned)),
+    ];
     for (name, view, ground, post) in cases {
         let set = |stage: &mut Stage| (stage.ground, stage.post) = (ground.clone(), post);
         let expected = reference(&gpu, &scene, set, view);
@@ -167,9 +172,8 @@ fn jitter_moves_the_picture_and_nothing_else() {
             image.pixels[at..at + 4].to_vec()
         };
         let inner = || (1..95).flat_map(|y| (1..95).map(move |x| (x, y)));
-        let others = inner().filter(|&(x, y)| {
-            at(&moved, x + 1, y - 1).iter().zip(at(&plain, x, y)).any(|(a, b)| a.abs_diff(b) > 2)
-        });
+        let others = inner()
+            .filter(|&(x, y)| at(&moved, x + 1, y - 1).iter().zip(at(&plain, x, y)).any(|(a, b)| a.abs_diff(b) > 2));
         // Rounding puts a few points on the other side of an edge.
         let others = others.count();
         assert!(others <= 8, "{samples} samples: {others} pixels are others");
@@ -185,9 +189,12 @@ fn what_has_no_mean_is_refused() {
     let view = view(16, 4.0).view();
     let wild = View { jitter_px: [0.0, f32::NAN], ..view.clone() };
     let part_ids = View { channel: Channel::PartId, ..view.clone() };
-    for (frames, view, words) in
-        [(0, &view, "is 0; expected 1 to 4096"), (5000, &view, "is 5000"), (4, &part_ids, "part-id"), (4, &wild, "jitter")]
-    {
+    for (frames, view, words) in [
+        (0, &view, "is 0; expected 1 to 4096"),
+        (5000, &view, "is 5000"),
+        (4, &part_ids, "part-id"),
+        (4, &wild, "jitter"),
+    ] {
         let error = renderer.render_accumulated(&mut stage, view, frames).expect_err(words).to_string();
         assert!(error.contains(words), "{error}");
     }
@@ -222,7 +229,9 @@ fn hashed_alpha_covers_as_much_as_alpha_says() {
     let view = View { background: Background::Transparent, ..view(96, 4.0).view() };
     for samples in [1, 4] {
         let renderer = Renderer::with_output(&gpu, output(samples)).expect("a renderer");
-        for (mode, alpha) in (1..=9).map(|i| (if i % 2 == 0 { AlphaMode::Mask } else { AlphaMode::Blend }, i as f32 * 0.1)) {
+        for (mode, alpha) in
+            (1..=9).map(|i| (if i % 2 == 0 { AlphaMode::Mask } else { AlphaMode::Blend }, i as f32 * 0.1))
+        {
             let mut stage = staged(&renderer, &veils(1, alpha, mode));
             let (one, grain) = alpha_of(&renderer.render(&mut stage, &view).expect("a picture"));
             let (many, spread) = alpha_of(&renderer.render_accumulated(&mut stage, &view, 64).expect("a mean"));
@@ -267,8 +276,13 @@ fn hashed_alpha_does_not_crawl() {
         view
     };
     let first = drawn(&still);
-    let sideways: Vec<f32> = (1..=10).map(|i| (drawn(&moved(i as f32 * 0.1 - 0.1, 0.0)), drawn(&moved(i as f32 * 0.1, 0.0)))).map(|(a, b)| others(&a, &b, 0)).collect();
-    let nearer: Vec<f32> = (0..10).map(|i| others(&drawn(&moved(0.0, i as f32 * 0.002)), &drawn(&moved(0.0, (i + 1) as f32 * 0.002)), 0)).collect();
+    let sideways: Vec<f32> = (1..=10)
+        .map(|i| (drawn(&moved(i as f32 * 0.1 - 0.1, 0.0)), drawn(&moved(i as f32 * 0.1, 0.0))))
+        .map(|(a, b)| others(&a, &b, 0))
+        .collect();
+    let nearer: Vec<f32> = (0..10)
+        .map(|i| others(&drawn(&moved(0.0, i as f32 * 0.002)), &drawn(&moved(0.0, (i + 1) as f32 * 0.002)), 0))
+        .collect();
     let whole = others(&first, &drawn(&moved(3.0, 0.0)), 3);
     println!("sideways {sideways:?}, nearer {nearer:?}, three pixels {whole}");
     assert!(sideways.iter().all(|share| *share < 0.08), "{sideways:?}");

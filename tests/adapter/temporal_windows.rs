@@ -5,10 +5,8 @@ use glam::{Mat4, Quat, Vec3, Vec4};
 use hikage::color::linear_from_srgb;
 use hikage::material::{AlphaMode, Base, Material, OutlineWidth, Shading};
 use hikage::motion::Pose;
-use hikage::scene::{
-    Antialias, Framing, HumanBone, Influences, MorphTarget, Node, Post, Primitive, Skin, Transform,
-};
-use hikage::{Actor, Background, Gpu, Grid, Ground, Renderer, Stage, View};
+use hikage::scene::{Antialias, Framing, HumanBone, Influences, MorphTarget, Node, Post, Primitive, Skin, Transform};
+use hikage::{Actor, Background, Far, Gpu, Grid, Ground, HostDepth, Output, Renderer, Stage, Target, View};
 
 use crate::support::{HEAD, anime_heroine, gpu, keep, scene, sphere, square, target, texels, view};
 use crate::temporal::{Light, off_lights, output, reference, staged, still_life, veils};
@@ -58,7 +56,7 @@ fn what_stands_still_becomes_smooth() {
     let scene = still_life(Some(OutlineWidth::Screen { height_ratio: 0.01 }));
     let shot = view(96, 4.0).view();
     let clear = View { background: Background::Transparent, ..shot.clone() };
-    let ground = Ground { grid: Some(Grid::default()), middle: Vec3::Y * -0.6, ..Ground::default() };
+    let ground = Ground { grid: Some(Grid::default()), middle: Vec3::Y * -0.6, radius_m: 3.0, ..Ground::default() };
     for (name, view, ground) in [("colour", &shot, None), ("clear", &clear, None), ("ground", &shot, Some(ground))] {
         let set = |stage: &mut Stage| (stage.ground, stage.post) = (ground.clone(), Some(TEMPORAL));
         let expected = reference(&gpu, &scene, set, view);
@@ -84,13 +82,14 @@ fn what_stands_still_becomes_smooth() {
     }
 }
 
-/// Hashed alpha is smooth in a window, too.
+/// Hashed alpha is smooth in a window, too. What covers less than a quarter is thinned there: where none of it is about a pixel,
+/// its history is taken for a ghost.
 #[test]
 fn hashed_alpha_becomes_smooth() {
     let gpu = gpu();
     let view = View { background: Background::Transparent, ..view(96, 4.0).view() };
     let renderer = renderer(&gpu, 1);
-    for alpha in [0.3, 0.5, 0.7, 0.9] {
+    for alpha in [0.3, 0.5, 0.7, 0.8, 0.9] {
         let mut stage = staged(&renderer, &veils(1, alpha, AlphaMode::Mask));
         stage.post = Some(TEMPORAL);
         let window = Window::new(&gpu, &renderer, view.size);
@@ -326,11 +325,8 @@ fn movement_is_what_it_is_by_hand() {
         joints: [[0, 1, 0, 0]; 4].concat(),
         weights: weights.iter().flat_map(|[a, b]| [*a, *b, 0.0, 0.0]).collect(),
     };
-    p.morphs = vec![MorphTarget {
-        vertices: vec![1, 2, 3],
-        positions: shifts[1..].to_vec(),
-        normals: vec![[0.0; 3]; 3],
-    }];
+    p.morphs =
+        vec![MorphTarget { vertices: vec![1, 2, 3], positions: shifts[1..].to_vec(), normals: vec![[0.0; 3]; 3] }];
     let rest: [Vec3; 4] = std::array::from_fn(|i| Vec3::from(p.positions[i]));
 
     struct State {
@@ -404,5 +400,54 @@ fn movement_is_what_it_is_by_hand() {
         println!("{name}: {count} pixels, up to {farthest} px, off by {worst}");
         assert!(count > 800 && worst <= 0.01, "{name}: {count} pixels, off by {worst} px of {farthest}");
         assert!(farthest < 8.0 && (farthest > 0.3 || *name == "stands still"), "{name}: {farthest} px");
+    }
+}
+
+/// What is laid over a host's colour, before and behind its depth, is as smooth, and the host's colour stays where nobody is.
+#[test]
+fn a_hosts_frame_is_smooth_too() {
+    let gpu = gpu();
+    let scene = still_life(None);
+    let blue = hikage::color::Srgb([40, 60, 200]);
+    let view = View { background: Background::Color(blue), ..view(96, 4.0).view() };
+    let expected = reference(&gpu, &scene, |_| (), &view);
+    let host = HostDepth { format: wgpu::TextureFormat::Depth32Float, far: Far::Zero };
+    for depth in [None, Some(host)] {
+        let renderer = Renderer::with_output(&gpu, Output { depth, ..output(1) }).expect("a renderer");
+        let mut stage = staged(&renderer, &scene);
+        stage.post = Some(TEMPORAL);
+        let color = target(&gpu, view.size, wgpu::TextureFormat::Rgba8UnormSrgb, 1);
+        let far = target(&gpu, view.size, host.format, 1);
+        let [into, far] = [&color, &far].map(|t| t.create_view(&wgpu::TextureViewDescriptor::default()));
+        for _ in 0..48 {
+            let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+            let [r, g, b] = blue.to_linear().0.map(f64::from);
+            let load = wgpu::LoadOp::Clear(wgpu::Color { r, g, b, a: 1.0 });
+            drop(encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                    view: &into,
+                    depth_slice: None,
+                    resolve_target: None,
+                    ops: wgpu::Operations { load, store: wgpu::StoreOp::Store },
+                })],
+                depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                    view: &far,
+                    depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store }),
+                    stencil_ops: None,
+                }),
+                ..Default::default()
+            }));
+            renderer.prepare(&mut encoder, &mut stage).expect("a stage");
+            let laid = Target { color: &into, keeps_color: true, depth: depth.map(|_| &far) };
+            renderer.draw(&mut encoder, &stage, &view, laid).expect("a view");
+            gpu.queue.submit([encoder.finish()]);
+        }
+        let pixels = texels(&gpu, &color);
+        let lights: Vec<Light> = pixels.chunks_exact(4).map(crate::temporal::light_of).collect();
+        let found = off_lights(&lights, &expected);
+        println!("{depth:?}: {found:?}");
+        assert!(found.mean < 1.5 / 255.0 && found.edges < 0.01, "{depth:?}: {found:?}");
+        let outside = pixels.chunks_exact(4).zip(&expected).filter(|(_, (_, spread))| *spread == 0.0);
+        assert!(outside.clone().any(|(p, _)| p[..3] == blue.0), "{depth:?}: the host's colour is gone");
     }
 }

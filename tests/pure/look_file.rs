@@ -360,10 +360,12 @@ fn antialiasing_goes_by_name_or_switch() {
     assert!(error.contains("smooth") && error.contains("fxaa"), "{error}");
     let error = apply("[post]\nantialias = 2", &mut doll()).expect_err("a number");
     assert!(error.contains("\"none\", \"fxaa\" or \"temporal\""), "{error}");
-    assert!(LookFile::template(&{
-        let mut scene = doll();
-        apply("[post]\nantialias = false", &mut scene).expect("a look");
-        scene
-    })
-    .contains("antialias = \"none\""));
+    assert!(
+        LookFile::template(&{
+            let mut scene = doll();
+            apply("[post]\nantialias = false", &mut scene).expect("a look");
+            scene
+        })
+        .contains("antialias = \"none\"")
+    );
 }

@@ -53,6 +53,20 @@ fn shadow_lit(actor: u32, at: vec4f, wanted: bool) -> f32 {
     return min(lit, actors[actor].key_light);
 }
 
+// How far light has come through a character to a place of its shadow map, metres: the mean over four by four texels.
+fn shadow_thickness(actor: u32, at: vec4f) -> f32 {
+    let layer = i32(round(at.w));
+    let size = vec2i(textureDimensions(shadow_map));
+    let first = vec2i(floor(at.xy * vec2f(size) - 0.5)) - 1;
+    var sum = 0.0;
+    for (var i = 0; i < 16; i++) {
+        let texel = clamp(first + vec2i(i % 4, i / 4), vec2i(0), size - 1);
+        sum += max(at.z - textureLoad(shadow_map, texel, max(layer, 0), 0), 0.0);
+    }
+    let is_outside = any(at.xy <= vec2f(0.0)) || any(at.xy >= vec2f(1.0)) || layer < 0;
+    return select(sum / 16.0 / actors[actor].shadow_scale, 0.0, is_outside);
+}
+
 // Share of light that a layer lets through to a place of the map. What lies beyond its border is lit, and so is what the
 // caller does not need (`wanted`).
 fn bangs_lit(actor: u32, at: vec3f, kind: i32, wanted: bool) -> f32 {

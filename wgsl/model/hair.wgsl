@@ -9,7 +9,9 @@ import package::lib::bands::banded;
 import package::lib::fibre::{fibre_absorption, fibre_longitudinal, fibre_tilted};
 import package::lib::kajiya_kay::{shifted_strand, strand_specular, wrapped_lambert};
 import package::lib::light::luminance;
+import package::bind::maps::shadow_thickness;
 import package::look::hair::{strand_direction, strand_shift};
+import package::look::strips::{grayness_of_strips, occlusion_of_strips};
 import package::material::{hair_table, hair_table_sampler, material};
 import package::model::standard::physical_light;
 import package::model::toon::toon_model;
@@ -22,6 +24,8 @@ struct Strand {
     color: vec3f,
     // Share of light that comes through the hair about it.
     occlusion: f32,
+    // How gray it is: pigment that has gone.
+    gray: f32,
     // Fibres between it and the key light.
     crossed: f32,
 }
@@ -40,6 +44,14 @@ fn strand_of(s: Surface) -> Strand {
     strand.shift = strand_shift(s);
     strand.color = s.lit;
     strand.occlusion = 1.0;
+    @if(strips) {
+        let m = &material.hair;
+        strand.occlusion = mix(1.0, occlusion_of_strips(s.at)[m.occlusion_strength], m.occlusion);
+        strand.gray = grayness_of_strips(s.at);
+        strand.color = mix(strand.color, vec3f(luminance(strand.color)), strand.gray);
+    }
+    @if(hair_fibre && cast_shadow) strand.crossed =
+        shadow_thickness(s.at.actor, s.at.shadow) * material.hair.fibre_density * material.cast_shadow.received;
     return strand;
 }
 
@@ -115,7 +127,7 @@ fn strand_absorption(strand: Strand) -> vec3f {
     if m.fibre_of_base > 0.0 {
         sigma = mix(sigma, fibre_absorption(strand.color, m.fibre_color_scale), m.fibre_of_base);
     }
-    return sigma;
+    return sigma * (1.0 - strand.gray);
 }
 
 // R, and what goes forwards, backwards and many times about, for each colour.
@@ -212,12 +224,17 @@ fn hair_model(s: Surface) -> Shaded {
     let strand = strand_of(s);
     @if(channel_strands) shown = strand.direction * 0.5 + 0.5;
     var l = physical_light(s, true);
-    var direct = strand_lit(s, strand, frame.to_light, l.own_lit);
+    // What light loses on its way through hair is no matter of lit or not.
+    var share = l.own_lit;
+    @if(hair_fibre && cast_shadow) share = actors[s.at.actor].key_light;
+    var direct = strand_lit(s, strand, frame.to_light, share);
     direct.body *= s.light;
     direct.highlights *= s.light;
     @if(punctual) for (var i = 0u; i < frame.punctual_count; i++) {
         let arriving = punctual_light(i, s.at.world_position);
-        let lit = strand_lit(s, strand, arriving.to_light, 1.0);
+        var bare = strand;
+        bare.crossed = 0.0;
+        let lit = strand_lit(s, bare, arriving.to_light, 1.0);
         direct.body += lit.body * arriving.radiance;
         direct.highlights += lit.highlights * arriving.radiance;
     }

@@ -33,8 +33,9 @@ struct TemporalNumbers {
 @group(0) @binding(5) var past: texture_2d<f32>;
 @group(0) @binding(6) var history_sampler: sampler;
 
-// Most pictures in a mean.
+// Most pictures in a mean, of what stands still and of what moves: each move softens it.
 const MOST: f32 = 24.0;
+const MOST_MOVING: f32 = 8.0;
 
 struct Resolved {
     @location(0) color: vec4f,
@@ -117,7 +118,8 @@ fn fs_main(in: PictureVarying) -> Resolved {
         wide = max(wide, d);
         wide_farthest = min(wide_farthest, d);
     }
-    var moved = textureLoad(velocity, mover, 0).xy;
+    // A surface moves as it does here: its nearest place about the pixel would always lead it the same way.
+    var moved = textureLoad(velocity, select(pixel, mover, wide > here * 1.01), 0).xy;
     if wide == 0.0 {
         moved = background_velocity(in.position.xy);
     }
@@ -135,7 +137,7 @@ fn fs_main(in: PictureVarying) -> Resolved {
     let is_same = known.x >= low * (0.95 - temporal.eye_moved * low) && known.x <= high * (1.05 + temporal.eye_moved * high);
     let around = wide / temporal.near;
     let is_same_around = known.w >= around * 0.95 && known.w <= around * 1.05;
-    let is_known = temporal.is_continued > 0.5 && is_inside && is_same && (is_same_around || !has_others);
+    let is_known = temporal.is_continued > 0.5 && is_inside && ((is_same && (is_same_around || !has_others)) || (is_still && is_same_around));
 
     let mean = sum / 9.0;
     let spread = sqrt(max(squares / 9.0 - mean * mean, vec4f(0.0)));
@@ -145,7 +147,7 @@ fn fs_main(in: PictureVarying) -> Resolved {
     let half = max(spread * select(1.25, 2.0, has_stayed), vec4f(select(0.0, sqrt(known.z), has_stayed)));
     let now = ycocg_from_rgb(drawn);
     let before = clipped_to_box(ycocg_from_rgb(pressed(history_at(from_place))), mean, half);
-    let count = select(0.0, min(known.y, MOST - 1.0), is_known);
+    let count = select(0.0, min(known.y, mix(MOST, MOST_MOVING, saturate(length(moved) * 2.0)) - 1.0), is_known);
     let kept = count / (count + 1.0);
     let off = (now - before) * (now - before);
     let differs = mix(max(max(off.x, off.y), max(off.z, off.w)), known.z, kept) * select(0.0, 1.0, is_known && has_stayed);

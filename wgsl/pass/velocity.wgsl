@@ -11,7 +11,7 @@ fn vs_main(in: VertexInput) -> Varying {
     var out: Varying;
     let position = world_position(v, v.position);
     out.clip_position = frame.clip_from_world * vec4f(position, 1.0);
-    @if(world) out.world_position = position;
+    out.world_position = position;
     out.before = (frame.clip_before * vec4f(position_before(in), 1.0)).xyw;
     return with_attributes(v, out);
 }
@@ -21,7 +21,12 @@ fn fs_main(in: Varying) -> @location(0) vec2f {
     if stage_gone(in) {
         discard;
     }
-    // What was behind the viewer was in no picture.
-    let before = (in.before.xy / max(in.before.z, 1e-6) * vec2f(0.5, -0.5) + 0.5) * frame.size_px;
-    return clamp(in.clip_position.xy - frame.jitter_px - before, vec2f(-3e4), vec2f(3e4));
+    // Both places are projected from what is interpolated: whatever the rasterizer rounds is no movement.
+    let now = (frame.clip_from_world * vec4f(in.world_position, 1.0)).xyw;
+    return clamp(pixel(now) - frame.jitter_px - pixel(in.before), vec2f(-3e4), vec2f(3e4));
+}
+
+// What was behind the viewer was in no picture.
+fn pixel(clip: vec3f) -> vec2f {
+    return (clip.xy / max(clip.z, 1e-6) * vec2f(0.5, -0.5) + 0.5) * frame.size_px;
 }

@@ -39,7 +39,7 @@ pub(crate) struct VelocityInputs<'a> {
 
 /// What draws the movement of a material.
 pub(crate) fn request(of: &Composition, material: &Material, colors: bool) -> Request {
-    let recipe = of.cut("velocity", colors, true).with("seen", true).with("before", true);
+    let recipe = of.cut("velocity", colors, true).with("seen", true).with("world", true).with("before", true);
     let targets = vec![VELOCITY_FORMAT.into()];
     Request {
         recipe,

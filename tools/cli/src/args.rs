@@ -6,8 +6,8 @@ use clap::ValueEnum;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use hikage::color::Srgb;
 use hikage::motion::Stance;
-use hikage::scene::Framing;
 use hikage::render::MOST_ACCUMULATED;
+use hikage::scene::Framing;
 use hikage::{Background, Channel, Grid, Ground};
 
 /// Longest side of a picture: the size of textures that every adapter has.
