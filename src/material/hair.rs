@@ -74,7 +74,7 @@ crate::section! {
         shift_map: Option<TextureRef> = None, read LINEAR_REPEAT;
         /// How far: tangent of the angle between the map's ends.
         shift_amount: f32 = 0.3, in -2.0..=2.0;
-        /// How far light comes round the hair: 0 Lambert, 1 half Lambert; of fibres what the whole body lets through.
+        /// How far light comes round the hair as `kajiya-kay`: 0 Lambert, 1 half Lambert.
         wrap: f32 = 0.5, in 0.0..=1.0;
         /// How far the occlusion of strips is followed.
         occlusion: f32 = 1.0, in 0.0..=1.0;
@@ -164,6 +164,8 @@ crate::part! {
         detector: Detector = Detector::Logistic;
         /// Share of the light that hair throws on hair.
         scatter: f32 = 1.0, in 0.0..=2.0;
+        /// How far strands lie in a body of others, which keep light from them and them from view: 0 for a single layer.
+        packing: f32 = 1.0, in 0.0..=1.0;
         /// Fibres that light crosses a metre inside of the hair, where it casts shadow on itself.
         density: f32 = 600.0, in 0.0..=100_000.0;
     }

@@ -39,6 +39,7 @@ struct Hair {
     fibre_absorption: vec3f,
     fibre_scatter: f32,
     fibre_density: f32,
+    fibre_packing: f32,
 }
 
 // Direction of the strands, world, unit, from root to tip.

@@ -113,7 +113,7 @@ const TABLE_COLUMNS: f32 = 66.0;
 @if(hair_fibre)
 fn fibre_entry(column: f32, row: f32, absorption: f32) -> vec4f {
     let size = vec3f(textureDimensions(hair_table));
-    let slice = (exp(-absorption) * (size.z - 1.0) + 0.5) / size.z;
+    let slice = (exp(-0.5 * absorption) * (size.z - 1.0) + 0.5) / size.z;
     return textureSampleLevel(
         hair_table, hair_table_sampler, vec3f(column / TABLE_COLUMNS, (row * (size.y - 1.0) + 0.5) / size.y, slice), 0.0
     );
@@ -146,6 +146,15 @@ fn fibre_energies(row: f32, sigma: vec3f) -> Energies {
     return Energies(r.x, vec3f(r.y, g.y, b.y), vec3f(r.z, g.z, b.z), vec3f(r.w, g.w, b.w));
 }
 
+// Share of light that what is seen of a body of strands gets, each of which lets a share of it on. Through a body from behind
+// comes as much as through a layer as deep as it is seen into.
+@if(hair_fibre)
+fn body_share(forwards: vec3f, n_dot_l: f32, n_dot_v: f32, packing: f32) -> vec3f {
+    let before = max(n_dot_l, 0.0);
+    let kept = before / max(before + n_dot_v * (1.0 - forwards), vec3f(1e-3));
+    return mix(vec3f(1.0), max(kept, vec3f(0.37) * saturate(-4.0 * n_dot_l)), packing);
+}
+
 @if(hair_fibre)
 fn strand_lit(s: Surface, strand: Strand, to_light: vec3f, share: f32) -> Lit {
     let m = &material.hair;
@@ -176,9 +185,14 @@ fn strand_lit(s: Surface, strand: Strand, to_light: vec3f, share: f32) -> Lit {
     let inner = vec3f(r.z, g.z, b.z) + vec3f(r.w, g.w, b.w);
     let through = vec3f(r.y, g.y, b.y);
     let e = fibre_energies(row, sigma);
-    // Light arrives straight as far as no fibre is before it (Poisson), and through those that are.
-    let straight = exp(-strand.crossed) * share;
-    let scattered = max(exp(-strand.crossed * (1.0 - e.forwards)) - exp(-strand.crossed), vec3f(0.0)) * share;
+    // Light arrives straight as far as no fibre is before it (Poisson), and through those that are. What is seen of a body of
+    // strands lies at all depths, from which light of both kinds is lost (Lommel and Seeliger).
+    let n_dot_l = dot(s.normal, to_light);
+    let n_dot_v = max(dot(s.normal, s.view), 0.05);
+    let straight = body_share(vec3f(0.0), n_dot_l, n_dot_v, m.fibre_packing).x * exp(-strand.crossed) * share;
+    let with_scattered = body_share(e.forwards, n_dot_l, n_dot_v, m.fibre_packing)
+        * exp(-strand.crossed * (1.0 - e.forwards)) * share;
+    let scattered = max(with_scattered - straight, vec3f(0.0));
     // Spread along the fibre by each that it has crossed.
     let wide = fibre_longitudinal(v.w + 0.25 * v.x * strand.crossed, sin_i, cos_i, sin_o, cos_o);
     let back = e.around * ((1.0 + cos_phi) / (2.0 * PI) * wide * m.fibre_scatter);

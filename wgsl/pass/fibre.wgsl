@@ -1,5 +1,5 @@
 // The table of azimuthal scattering of fibres of one roughness and index: an entry for an angle about the fibre, an inclination
-// of the view, and what one pass lets through at absorption 1. R, TT, TRT and the rest, 1/rad; the last two columns hold the
+// of the view, and what half a pass lets through. R, TT, TRT and the rest, 1/rad; the last two columns hold the
 // energies of R, of all that goes forwards and backwards, and of what goes about among many fibres and comes back.
 import package::lib::fibre::{Detector, PI, fibre_attenuation, fibre_azimuthal, fibre_crossing};
 
@@ -26,8 +26,8 @@ fn main(@builtin(global_invocation_id) at: vec3u) {
     let theta = f32(at.y) / f32(size.y - 1u) * 0.5 * PI;
     let sin_o = sin(theta);
     let cos_o = sqrt(max(1.0 - sin_o * sin_o, 0.0));
-    // Whole darkness stands for an absorption of 16.
-    let absorption = -log(max(f32(at.z) / f32(size.z - 1u), 1.1e-7));
+    // Half of what one pass absorbs; whole darkness stands for an absorption of 32.
+    let absorption = -2.0 * log(max(f32(at.z) / f32(size.z - 1u), 1.1e-7));
     let detector = Detector(numbers.width, numbers.is_gaussian == 1u);
     if at.x < ANGLES {
         let phi = f32(at.x) / f32(ANGLES - 1u) * PI;

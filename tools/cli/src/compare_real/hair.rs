@@ -76,7 +76,7 @@ pub(super) fn shot(dir: &Path, of: &Reference) -> Result<Shot, String> {
         let mut ribbons = strands.ribbons(of.camera.eye.into());
         ribbons.outline_normals.clone_from(&ribbons.normals);
         // Strands of a single layer cast no shadow on each other.
-        let fibre = FibreModel { density: 0.0, ..model };
+        let fibre = FibreModel { density: 0.0, packing: 0.0, ..model };
         let material = Material {
             hair: Some(Hair { fibre, direction: StrandDirection::Auto, ..Hair::default() }),
             double_sided: true,
