@@ -44,7 +44,9 @@ fn in_texture(primitive: &Primitive, along_u: Vec<[f32; 3]>) -> Vec<[f32; 4]> {
 /// Directions on the surface in which texture coordinates grow along `along`, by the area of the triangles at each vertex.
 fn gradients(primitive: &Primitive, uv_set: usize, along: Vec2) -> Vec<[f32; 3]> {
     let mut sums = vec![Vec3::ZERO; primitive.positions.len()];
-    let Some(uvs) = primitive.uvs.get(uv_set).or(primitive.uvs.first()) else { return sums.iter().map(|s| s.to_array()).collect() };
+    let Some(uvs) = primitive.uvs.get(uv_set).or(primitive.uvs.first()) else {
+        return sums.iter().map(|s| s.to_array()).collect();
+    };
     for corners in primitive.indices.as_chunks::<3>().0 {
         let [a, b, c] = corners.map(|i| Vec3::from(primitive.positions[i as usize]));
         let [ta, tb, tc] = corners.map(|i| Vec2::from(uvs[i as usize]));

@@ -51,9 +51,9 @@ use crate::material::{Material, Origin};
 use crate::scene::{Character, Mesh, Node, Scene, Source};
 
 pub use fault::Limits;
-pub use radiance::load_radiance;
 use fault::{Fault, quoted};
 use json::Json;
+pub use radiance::load_radiance;
 use warnings::Warnings;
 
 /// Extensions that are read. A file that requires any other is refused.

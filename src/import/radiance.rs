@@ -26,7 +26,8 @@ pub fn load_radiance(path: impl AsRef<Path>) -> Result<Radiance> {
     };
     if !bytes.starts_with(b"#?") {
         let head = bytes.get(..bytes.len().min(8)).unwrap_or_default().escape_ascii();
-        let message = format!("starts with \"{head}\"; expected a Radiance file (.hdr), which starts with \"#?RADIANCE\"");
+        let message =
+            format!("starts with \"{head}\"; expected a Radiance file (.hdr), which starts with \"#?RADIANCE\"");
         return Err(fault("header", message));
     }
     let decoder = guarded(|| HdrDecoder::new(Cursor::new(&bytes))).map_err(|m| fault("header", m))?;

@@ -2,13 +2,12 @@
 
 use super::anime::materials_of;
 use crate::color::LinearRgb;
-use crate::material::{
-    AlphaMode, CastShadow, FibreModel, Hair, Material, Origin, Rim, Shading, Standard, StrandDirection,
-};
+use crate::material::{AlphaMode, CastShadow, FibreModel, Hair, Material, Origin, Rim, Shading, Standard};
 use crate::scene::{DirectionalLight, Environment, Lights, Post, Role, Scene, SelfShadow, ToneCurve};
 
-/// Strength of the key light beside the studio's own lamps.
-const KEY: f32 = 1.1;
+/// Strengths of the key light and of the studio: together they show white skin just below white.
+const KEY: f32 = 0.9;
+const STUDIO: f32 = 0.75;
 
 pub(super) fn apply(scene: &mut Scene) {
     for material in &mut scene.materials {
@@ -29,7 +28,7 @@ pub(super) fn apply(scene: &mut Scene) {
     scene.self_shadow = Some(SelfShadow { side: 2048, soft_width_m: 0.008, ..SelfShadow::default() });
     scene.lights = Some(Lights {
         directional: DirectionalLight { intensity: KEY, color: LinearRgb([1.0, 0.965, 0.92]), ..Default::default() },
-        environment: Some(Environment::studio()),
+        environment: Some(Environment { strength: STUDIO, ..Environment::studio() }),
         ..Lights::default()
     });
     scene.post = Some(Post { tone: ToneCurve::Filmic, ..scene.post.unwrap_or_default() });
@@ -73,8 +72,8 @@ fn eye(material: &mut Material) {
     material.cast_shadow = Some(CastShadow { casts: false, ..CastShadow::default() });
 }
 
-/// The colour is that of the file.
+/// The colour is that of the file; locks that are modelled as one shine as the combed strands that they stand for.
 fn hair(material: &mut Material) {
-    let fibre = FibreModel { of_base: 1.0, longitudinal: 0.32, azimuthal: 0.35, ..FibreModel::default() };
-    material.hair = Some(Hair { fibre, direction: StrandDirection::Auto, ..Hair::default() });
+    let fibre = FibreModel { of_base: 1.0, longitudinal: 0.2, azimuthal: 0.35, ..FibreModel::default() };
+    material.hair = Some(Hair { fibre, highlight_color: [1.8; 3], ..Hair::default() });
 }

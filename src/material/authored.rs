@@ -57,7 +57,16 @@ impl Authored {
     /// Visits every texture: its name in the file, how it is read, value.
     pub(crate) fn each_texture(&mut self, visit: &mut dyn FnMut(&'static str, Read, &mut TextureRef)) {
         let Self {
-            highlight, face_paint, detail_normal, ramps, part_ids, highlight_shape, inclusions, heat, surface, ..
+            highlight,
+            face_paint,
+            detail_normal,
+            ramps,
+            part_ids,
+            highlight_shape,
+            inclusions,
+            heat,
+            surface,
+            ..
         } = self;
         for (name, read, texture) in [
             ("highlight", Read::LINEAR, highlight),

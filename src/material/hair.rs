@@ -95,7 +95,7 @@ crate::section! {
         /// Black, with a cold shine.
         black { fibre: FibreModel { eumelanin: 5.0, pheomelanin: 0.0, ..FibreModel::default() } }
         /// Dark brown.
-        brown { fibre: FibreModel { eumelanin: 1.3, pheomelanin: 0.25, ..FibreModel::default() } }
+        brown { fibre: FibreModel { eumelanin: 0.8, pheomelanin: 0.25, ..FibreModel::default() } }
         /// Golden blond.
         blond { fibre: FibreModel { eumelanin: 0.16, pheomelanin: 0.22, ..FibreModel::default() } }
         /// Without any pigment.

@@ -15,8 +15,8 @@ pub use about::{About, Encoding, Field, Inner, Kind, Preset, Read};
 pub use alpha::{Alpha, AlphaMode, Blending};
 pub use authored::{Authored, Substance};
 pub use own::{OwnSection, register};
-pub use standard::Standard;
 pub use section::{Declared, Fields, Generated, Options, Section, Surroundings};
+pub use standard::Standard;
 pub use texture_ref::{TextureRef, UvTransform};
 pub use walk::{Leaf, Part, UNBOUNDED, Walk, shown_range};
 

@@ -1,7 +1,7 @@
 //! The check of a section of an application: whether its WGSL, its numbers and its declaration agree.
 
 use super::material::bytes;
-use super::shaders::{Bound, Recipe, STAGES, Shaders, Stage, file, hooks_of, Shape};
+use super::shaders::{Bound, Recipe, STAGES, Shaders, Shape, Stage, file, hooks_of};
 use crate::material::{About, Declared, Kind, LISTED, Material, Section, Surroundings, out_of_range, registered};
 use crate::{Error, Result};
 

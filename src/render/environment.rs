@@ -58,8 +58,7 @@ impl Environments {
             cube: whole_cube(&cube(gpu, 1, 1)),
             picture: targets::sampled(gpu, "no environment", [1, 1], HDR_FORMAT),
         };
-        let split_sum =
-            bind::filled(gpu, "split sum", bytemuck::cast_slice(split_sum()), wgpu::BufferUsages::UNIFORM);
+        let split_sum = bind::filled(gpu, "split sum", bytemuck::cast_slice(split_sum()), wgpu::BufferUsages::UNIFORM);
         Self { sampler, split_sum, none, kept: Vec::new() }
     }
 

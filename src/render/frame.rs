@@ -4,8 +4,8 @@ use wgpu::BindingResource;
 
 use super::blended::BlendedList;
 use super::character::Shown as Drawables;
-use super::environment::{EnvironmentMap, Environments};
 use super::draw_list::Actors;
+use super::environment::{EnvironmentMap, Environments};
 use super::layout::Filled;
 use super::numbers::put_view;
 use super::pass::background::BackgroundInputs;

@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 
 use super::layout::Block;
 use super::shaders::{Bound, Places, Recipe, Shaders, Shape};
-use crate::material::{About, AlphaMode, Generated, Kind, Leaf, Options, Read, Surroundings, TextureRef, UvTransform, Walk};
+use crate::material::{
+    About, AlphaMode, Generated, Kind, Leaf, Options, Read, Surroundings, TextureRef, UvTransform, Walk,
+};
 use crate::{Error, Result};
 
 /// Textures that WebGPU promises to one shader stage; 3 are read of the frame and 3 of the character at most.
@@ -193,9 +195,7 @@ impl Composition {
             pass,
             sections: kept.iter().map(|c| c.about).collect(),
             options,
-            textures: slots()
-                .map(|s| Bound { name: s.name.clone(), shape: s.source.shape() })
-                .collect(),
+            textures: slots().map(|s| Bound { name: s.name.clone(), shape: s.source.shape() }).collect(),
         }
     }
 

@@ -2,8 +2,8 @@
 
 use glam::{Mat4, Vec3, Vec4};
 
-use super::layout::{Block, Filled};
 use super::environment::LEVELS;
+use super::layout::{Block, Filled};
 use super::pass::bangs_shadow::{BangsFit, BangsTile};
 use super::pass::shadow::ShadowRows;
 use super::{Background, View};

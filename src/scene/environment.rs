@@ -162,7 +162,8 @@ impl Radiance {
                 sums.iter_mut().flatten().zip(row.iter().flatten()).for_each(|(sum, x)| *sum += x);
             }
             // Few rows do not fill the sphere exactly; light that is the same everywhere stays so.
-            let solid: f64 = (0..self.height).map(|y| ((f64::from(y) + 0.5) / f64::from(self.height) * f64::from(PI)).sin()).sum();
+            let solid: f64 =
+                (0..self.height).map(|y| ((f64::from(y) + 0.5) / f64::from(self.height) * f64::from(PI)).sin()).sum();
             let fill = 2.0 * f64::from(self.height) / (f64::from(PI) * solid);
             let scale: [f32; 9] = std::array::from_fn(|i| CONSTANTS[i] * CONSTANTS[i] * COSINE[i]);
             std::array::from_fn(|i| sums[i].map(|x| (x * fill) as f32 * scale[i]))
@@ -259,7 +260,8 @@ mod tests {
 
     #[test]
     fn bad_radiance_is_refused_by_its_texel() {
-        let fault = |texels: Vec<[f32; 3]>| Radiance::new(2, 1, texels).err().map(|e| e.to_string()).unwrap_or_default();
+        let fault =
+            |texels: Vec<[f32; 3]>| Radiance::new(2, 1, texels).err().map(|e| e.to_string()).unwrap_or_default();
         assert!(fault(vec![[0.0; 3], [0.0, f32::NAN, 0.0]]).contains("texel 1, 0"));
         assert!(fault(vec![[-1.0, 0.0, 0.0], [0.0; 3]]).contains("texel 0, 0"));
         assert!(fault(vec![[0.0; 3]]).contains("1 texels"));

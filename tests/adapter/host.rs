@@ -453,7 +453,8 @@ fn finished_pictures_are_laid_over_what_is_kept() {
     let view = View { background: Background::Color(Srgb([0x80; 3])), ..shot().view() };
     let clip_from_world =
         view.camera.clip_from_view(view.size[0] as f32 / view.size[1] as f32) * view.camera.view_from_world();
-    let post = Post { bloom: Some(Bloom::default()), exposure_ev: 0.0, tone: ToneCurve::Filmic, antialias: Antialias::None };
+    let post =
+        Post { bloom: Some(Bloom::default()), exposure_ev: 0.0, tone: ToneCurve::Filmic, antialias: Antialias::None };
     let depth = HOST;
     for (post, samples, depth) in
         [(Some(post), 4, depth), (Some(post), 1, depth), (Some(post), 4, None), (None, 4, None), (None, 1, None)]

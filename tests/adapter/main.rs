@@ -18,6 +18,7 @@ mod host;
 mod laws;
 mod layers;
 mod limits;
+mod natural;
 mod oracles;
 mod own_look;
 mod self_shadow;

@@ -11,7 +11,8 @@ use hikage::{Actor, Background, Far, Gpu, Grid, Ground, HostDepth, Output, Rende
 use crate::support::{HEAD, anime_heroine, gpu, keep, scene, sphere, square, target, texels, view};
 use crate::temporal::{Light, off_lights, output, reference, staged, still_life, veils};
 
-const TEMPORAL: Post = Post { bloom: None, exposure_ev: 0.0, tone: hikage::scene::ToneCurve::None, antialias: Antialias::Temporal };
+const TEMPORAL: Post =
+    Post { bloom: None, exposure_ev: 0.0, tone: hikage::scene::ToneCurve::None, antialias: Antialias::Temporal };
 
 /// Pictures of a window.
 struct Window<'a> {

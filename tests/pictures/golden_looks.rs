@@ -17,7 +17,7 @@ use crate::support::{
 /// Another driver may round edges and ramps differently, never more.
 const TOLERANCE: Tolerance = Tolerance { channel: 6, outliers: 0.006, blob: 16, drift: 1.0 };
 
-fn check(name: &str, rows: &[Image]) {
+pub(crate) fn check(name: &str, rows: &[Image]) {
     let pixels = rows.iter().flat_map(|row| row.pixels.iter().copied()).collect();
     let picture = Image { height: rows.iter().map(|r| r.height).sum(), pixels, ..rows[0].clone() };
     let goldens =
@@ -27,7 +27,7 @@ fn check(name: &str, rows: &[Image]) {
     }
 }
 
-fn beside(pictures: &[Image]) -> Image {
+pub(crate) fn beside(pictures: &[Image]) -> Image {
     let (width, height) = (pictures.iter().map(|p| p.width).sum(), pictures[0].height);
     let mut pixels = Vec::new();
     for y in 0..height as usize {
@@ -42,7 +42,7 @@ fn beside(pictures: &[Image]) -> Image {
 const PANEL: u32 = 128;
 
 /// Pictures are drawn twice as fine and averaged, so that what one driver puts a pixel farther weighs less.
-fn averaged(image: &Image) -> Image {
+pub(crate) fn averaged(image: &Image) -> Image {
     let (width, height) = (image.width / 2, image.height / 2);
     let at = |x: u32, y: u32, c: usize| u32::from(image.pixels[(y * image.width + x) as usize * 4 + c]);
     let mean = |x: u32, y: u32, c: usize| {
@@ -55,7 +55,7 @@ fn averaged(image: &Image) -> Image {
 }
 
 /// Shows something of one metre from the front.
-fn panel_view() -> Shot {
+pub(crate) fn panel_view() -> Shot {
     let mut view = view(2 * PANEL, 10.0);
     view.camera.fov_y_rad = 2.0 * 0.06f32.atan();
     view.lights.ambient = Ambient::uniform(LinearRgb::splat(0.12));
@@ -81,7 +81,7 @@ fn sweep(gpu: &Lent, scene: &Scene, change: impl Fn(&mut Shot, usize)) -> Image 
     })
 }
 
-fn ball(material: Material) -> Scene {
+pub(crate) fn ball(material: Material) -> Scene {
     scene(vec![(sphere(0.5, 64, 128), material)])
 }
 

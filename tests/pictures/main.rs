@@ -5,4 +5,5 @@ mod support;
 
 mod golden;
 mod golden_looks;
+mod golden_natural;
 mod sweeps;

@@ -157,7 +157,8 @@ fn fibre_energies(row: f32, sigma: vec3f) -> Energies {
 fn body_share(forwards: vec3f, n_dot_l: f32, n_dot_v: f32, packing: f32) -> vec3f {
     let before = wrapped_lambert(n_dot_l, material.hair.wrap);
     let kept = before / max(before + n_dot_v * (1.0 - forwards), vec3f(1e-3));
-    return mix(vec3f(1.0), max(kept, vec3f(0.37) * saturate(-4.0 * n_dot_l)), packing);
+    let behind = 1.0 - smoothstep(-0.6, 0.2, n_dot_l);
+    return mix(vec3f(1.0), mix(kept, vec3f(0.37), behind), packing);
 }
 
 @if(hair_fibre)

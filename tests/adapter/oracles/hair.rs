@@ -62,8 +62,7 @@ fn highlights_move_by_the_angle_of_their_shift() {
 /// Half of the peak is left at acos(0.5^(1/n)).
 #[test]
 fn highlights_have_the_width_of_their_exponent() {
-    let rows: Vec<Vec<f32>> =
-        [4.0f32, 20.0, 80.0, 300.0].map(|n| vec![n, 0.5f32.powf(1.0 / n).acos()]).into();
+    let rows: Vec<Vec<f32>> = [4.0f32, 20.0, 80.0, 300.0].map(|n| vec![n, 0.5f32.powf(1.0 / n).acos()]).into();
     let body = "output[out] = strand_specular(vec3f(1.0, 0.0, 0.0), vec3f(sin(input[base + 1u]), cos(input[base + 1u]), 0.0), input[base])
         / smoothstep(-1.0, 0.0, sin(input[base + 1u]));";
     for (i, found) in run(&["kajiya_kay"], body, &rows, 1).iter().enumerate() {

@@ -4,8 +4,8 @@ use std::fs::File;
 use std::io::Read as _;
 use std::path::Path;
 
-use hikage::motion::{Pose, Stance};
 use hikage::import::load_radiance;
+use hikage::motion::{Pose, Stance};
 use hikage::scene::{Environment, Scene};
 use hikage::sdf::{Project, Sides};
 use hikage::{Gpu, Look, LookFile};

@@ -52,7 +52,9 @@ fn main() {
 fn run(task: &str, args: &[String]) -> Outcome {
     // Tasks work from the repository's folder, wherever they are called; a path that they are given stays what it was.
     let args: Vec<String> = match task {
-        "demo" | "same" | "badinput" | "compare-references" | "compare-real" => args.iter().map(|arg| full_path(arg)).collect(),
+        "demo" | "same" | "badinput" | "compare-references" | "compare-real" => {
+            args.iter().map(|arg| full_path(arg)).collect()
+        }
         _ => args.to_vec(),
     };
     let root = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../..");

@@ -8,12 +8,24 @@ use crate::{Outcome, Stop, apt, cargo, driver, with};
 const WINDOW_PACKAGES: [&str; 5] = ["xvfb", "libxkbcommon-x11-0", "libx11-xcb1", "libxcursor1", "libxi6"];
 
 /// Test modules of pictures that are accepted by name; all stand in binaries named `pictures`.
-pub(crate) const GOLDENS: [&str; 3] = ["golden::", "golden_looks::", "golden_character::"];
+pub(crate) const GOLDENS: [&str; 4] = ["golden::", "golden_looks::", "golden_natural::", "golden_character::"];
 
 /// Other test modules, all of the binary `adapter`, that say something about a driver. Each part of the look has its
 /// pictures among the goldens of the character.
-const ON_SECOND_DRIVER: [&str; 8] =
-    ["adapters::", "body_looks::", "depth_rim::", "host::", "laws::", "oracles::", "self_shadow::", "stage::"];
+const ON_SECOND_DRIVER: [&str; 12] = [
+    "adapters::",
+    "body_looks::",
+    "depth_rim::",
+    "host::",
+    "laws::",
+    "layers::",
+    "natural::",
+    "oracles::",
+    "self_shadow::",
+    "stage::",
+    "strips::",
+    "temporal",
+];
 
 /// Tells llvmpipe not to optimise its machine code: the first frame takes about 40 % less, and the bytes are the same.
 pub(crate) const QUICK_LLVMPIPE: [(&str, &str); 1] = [("GALLIVM_PERF", "nopt")];

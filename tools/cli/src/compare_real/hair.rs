@@ -144,10 +144,8 @@ fn sphere(radius: f32) -> Primitive {
     let mut made = Primitive::default();
     for y in 0..=ALONG {
         for x in 0..=AROUND {
-            let (phi, theta) = (
-                x as f32 / AROUND as f32 * std::f32::consts::TAU,
-                y as f32 / ALONG as f32 * std::f32::consts::PI,
-            );
+            let (phi, theta) =
+                (x as f32 / AROUND as f32 * std::f32::consts::TAU, y as f32 / ALONG as f32 * std::f32::consts::PI);
             let n = Vec3::new(theta.sin() * phi.cos(), theta.cos(), theta.sin() * phi.sin());
             made.positions.push((n * radius).to_array());
             made.normals.push(n.to_array());

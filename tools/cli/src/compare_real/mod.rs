@@ -124,8 +124,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         let compared = || -> Result<serde_json::Value, Failure> {
             let file = root.join(name).with_extension("json");
             let fail = |what: String| Failure::input(format!("{}: {what}", file.display()));
-            let of: Reference =
-                serde_json::from_slice(&setup::read_small(&file)?).map_err(|e| fail(e.to_string()))?;
+            let of: Reference = serde_json::from_slice(&setup::read_small(&file)?).map_err(|e| fail(e.to_string()))?;
             let picture = out.join(name).with_extension("npy");
             let hair::Shot { scenes, scale } = hair::shot(&args.dir, &of).map_err(fail)?;
             let texels = drawn(&gpu, &of, scenes, scale)?;

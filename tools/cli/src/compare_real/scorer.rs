@@ -18,7 +18,10 @@ impl Scorer {
     pub(super) fn find(dir: &Path) -> Result<Self, Failure> {
         let program = dir.join("compare_real.py");
         if !program.is_file() {
-            return Err(Failure::input(format!("{}: is not there; expected the scorer of the references", program.display())));
+            return Err(Failure::input(format!(
+                "{}: is not there; expected the scorer of the references",
+                program.display()
+            )));
         }
         let serves = |python: &&str| {
             let asked = Command::new(python).args(["-c", "import numpy, scipy, PIL"]).output();
@@ -62,7 +65,8 @@ pub(super) fn line(name: &str, figures: &Value) -> String {
         number(&figures["chroma"]["maxAbsDiff"]),
     );
     for (color, lobe) in figures["lobes"].as_object().into_iter().flatten() {
-        let step = |key: &str| lobe["cand"][key].as_f64().zip(lobe["ref"][key].as_f64()).map(|(ours, theirs)| ours - theirs);
+        let step =
+            |key: &str| lobe["cand"][key].as_f64().zip(lobe["ref"][key].as_f64()).map(|(ours, theirs)| ours - theirs);
         if let (Some(middle), Some(width)) = (step("centroidTopHalfDeg"), step("fwhmDeg")) {
             text += &format!("  {color} {middle:+.2} deg, width {width:+.2}");
         }

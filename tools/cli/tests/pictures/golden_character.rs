@@ -194,6 +194,24 @@ fn the_anime_look_is_as_before() {
 }
 
 #[test]
+fn the_natural_look_is_as_before() {
+    let mut studio = Studio::open_with(|scene| Look::Natural.apply(scene));
+    for (name, yaw, light) in
+        [("front", 0.0, -30.0), ("left", 50.0, 20.0), ("back", 180.0, 160.0), ("behind", 0.0, 165.0)]
+    {
+        studio.light_deg = [light, 35.0];
+        studio.check(&format!("natural-portrait-{name}"), [256; 2], Framing::Portrait, yaw, Stance::Relaxed, None);
+    }
+    studio.light_deg = [-30.0, 40.0];
+    studio.check("natural-full", [192, 384], Framing::Full, 25.0, Stance::Relaxed, None);
+    for channel in ["strands", "hair-primary", "hair-secondary", "hair-indirect"] {
+        studio.channel = Channel::Look(channel);
+        studio.check(&format!("channel-{channel}"), [160; 2], Framing::Portrait, 0.0, Stance::Rest, None);
+    }
+    assert!(studio.faults.is_empty(), "{}", studio.faults.join("\n"));
+}
+
+#[test]
 fn the_preview_sheet_of_her_face_shadow_is_as_before() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
     let [project, sheet] = ["preview.sdf.toml", "preview.png"].map(|name| folder.join(name));
