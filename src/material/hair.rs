@@ -218,6 +218,7 @@ impl Section for Hair {
         let tilt = |times: f32| [(times * of.tilt_rad).sin(), (times * of.tilt_rad).cos()];
         gpu.put("turn", [self.turn_rad.sin(), self.turn_rad.cos()]);
         gpu.put("fibre_variances", of.variances());
+        gpu.put("fibre_scales", of.variances().map(|v| 1.0 / (v * (1.0 - (-2.0 / v).exp()))));
         gpu.put("fibre_tilt_r", tilt(-2.0));
         gpu.put("fibre_tilt_tt", tilt(1.0));
         gpu.put("fibre_tilt_trt", tilt(4.0));
@@ -230,6 +231,7 @@ impl Section for Hair {
         on.set("hair_toon", is_toon && self.natural < 1.0);
         on.set("hair_kajiya_kay", self.model == HairModel::KajiyaKay);
         on.set("hair_fibre", self.model == HairModel::Fibre);
+        on.set("hair_blinn", self.kajiya_kay.direct[2].max(self.kajiya_kay.indirect[2]) > 0.0);
         on.set("hair_bands", self.steps > 0);
         on.set("hair_turned", self.turn_rad != 0.0);
         // Tangents are those of the texture only where a flow map needs them.

@@ -5,24 +5,26 @@
 
 const PI: f32 = 3.14159265;
 
-// ln (e^-x I0(x)) by Abramowitz and Stegun 9.8.1 and 9.8.2 (relative error 4e-7).
-fn log_i0e(x: f32) -> f32 {
-    let t = x / 3.75;
-    let u = t * t;
-    let near = 1.0 + u * (3.5156229 + u * (3.0899424 + u * (1.2067492 + u * (0.2659732 + u * (0.0360768 + u * 0.0045813)))));
-    let r = 1.0 / max(t, 1e-6);
-    let far = 0.39894228 + r * (0.01328592 + r * (0.00225319 + r * (-0.00157565 + r * (0.00916281 + r * (-0.02057706
-        + r * (0.02635537 + r * (-0.01647633 + r * 0.00392377)))))));
-    return select(log(max(far, 1e-6)) - 0.5 * log(max(x, 1e-6)), log(near) - x, x < 3.75);
+// e^-x I0(x) by hyperbolic cosine and a rational function (Olivares et al. 2018; relative error 3e-4): two square roots and one
+// exponential, for any x from 0.
+fn i0e(x: f32) -> f32 {
+    let square = x * x;
+    let root = sqrt(sqrt(1.0 + 0.25 * square));
+    return 0.5 * (1.0 + exp(-2.0 * x)) * (1.0 + 0.24273 * square) / (root * (1.0 + 0.43023 * square));
 }
 
-// Longitudinal scattering M of variance v: the integral of M cos theta over theta is 1. Half the squared distance of the two
-// directions stands for 1 - cos of their sum, which keeps its digits for any v.
-fn fibre_longitudinal(v: f32, sin_i: f32, cos_i: f32, sin_o: f32, cos_o: f32) -> f32 {
+// What longitudinal scattering of variance v is multiplied by: csch(1/v) / (2v) without its part e^(-1/v).
+fn fibre_scale(v: f32) -> f32 {
+    return 1.0 / (v * (1.0 - exp(-2.0 / v)));
+}
+
+// Longitudinal scattering M of variance v, whose `scale` is that of `fibre_scale`: the integral of M cos theta over theta is 1.
+// Half the squared distance of the two directions stands for 1 - cos of their sum, which keeps its digits for any v.
+fn fibre_longitudinal(v: f32, scale: f32, sin_i: f32, cos_i: f32, sin_o: f32, cos_o: f32) -> f32 {
     let across = cos_i - cos_o;
     let along = sin_i + sin_o;
     let off = 0.5 * (across * across + along * along);
-    return exp(log_i0e(cos_i * cos_o / v) - off / v - log(v) - log(1.0 - exp(-2.0 / v)));
+    return scale * i0e(cos_i * cos_o / v) * exp(-off / v);
 }
 
 // Sine and cosine of an inclination that the scales of the hair tilt.

@@ -30,6 +30,8 @@ struct Hair {
     kajiya_kay_indirect: vec3f,
     // Of R, TT, TRT and the rest.
     fibre_variances: vec4f,
+    // Of their longitudinal scattering.
+    fibre_scales: vec4f,
     // Sines and cosines of the tilts by the scales.
     fibre_tilt_r: vec2f,
     fibre_tilt_tt: vec2f,

@@ -28,6 +28,9 @@ struct Strand {
     gray: f32,
     // Fibres between it and the key light.
     crossed: f32,
+    // Of fibres: absorption, and what goes where of the light that meets one.
+    absorption: vec3f,
+    energies: Energies,
 }
 
 // Shares by which the sum of two estimates, light that comes back from hair round about and light that hair throws on, has the
@@ -54,6 +57,10 @@ fn strand_of(s: Surface) -> Strand {
         strand.occlusion = mix(1.0, occlusion_of_strips(s.at)[m.occlusion_strength], m.occlusion);
         strand.gray = grayness_of_strips(s.at);
         strand.color = mix(strand.color, vec3f(luminance(strand.color)), strand.gray);
+    }
+    @if(hair_fibre) {
+        strand.absorption = strand_absorption(strand);
+        strand.energies = fibre_energies(inclination_row(dot(strand.direction, s.view)), strand.absorption);
     }
     @if(hair_fibre && cast_shadow) strand.crossed =
         shadow_thickness(s.at.actor, s.at.shadow) * material.hair.fibre_density * material.cast_shadow.received;
@@ -82,9 +89,9 @@ fn strand_lit(s: Surface, strand: Strand, to_light: vec3f, share: f32) -> Lit {
         * (m.kajiya_kay_direct.x * strand_specular(first, h, m.kajiya_kay_primary_exponent));
     let secondary = m.kajiya_kay_secondary_color * strand.color
         * (m.kajiya_kay_direct.y * strand_specular(second, h, m.kajiya_kay_secondary_exponent));
-    let blinn = m.kajiya_kay_primary_color
-        * (m.kajiya_kay_direct.z * pow(max(dot(s.normal, h), 1e-4), m.kajiya_kay_primary_exponent));
-    lit.highlights = (primary + secondary + blinn) * facing;
+    lit.highlights = (primary + secondary) * facing;
+    @if(hair_blinn) lit.highlights += m.kajiya_kay_primary_color
+        * (m.kajiya_kay_direct.z * pow(max(dot(s.normal, h), 1e-4), m.kajiya_kay_primary_exponent) * facing);
     @if(channel_hair_primary) shown += primary * facing;
     @if(channel_hair_secondary) shown += secondary * facing;
     return lit;
@@ -93,20 +100,18 @@ fn strand_lit(s: Surface, strand: Strand, to_light: vec3f, share: f32) -> Lit {
 @if(hair_kajiya_kay)
 fn strand_lit_from_around(s: Surface, strand: Strand) -> Lit {
     let m = &material.hair;
-    let first = shifted_strand(strand.direction, s.normal, m.kajiya_kay_primary_shift + strand.shift);
-    let second = shifted_strand(strand.direction, s.normal, m.kajiya_kay_secondary_shift + strand.shift);
-    let roughness = 1.0 - m.kajiya_kay_smoothness;
     let left = 1.0 - m.kajiya_kay_gray_scale * luminance(strand.color);
     var lit: Lit;
     lit.body = strand.color * environment_irradiance(s.normal) * strand.occlusion;
-    lit.highlights = (
+    // Both lobes are far wider than they are shifted: one look serves them.
+    let mirrored = environment_radiance(strand_mirrored(s, strand.direction), 1.0 - m.kajiya_kay_smoothness);
+    lit.highlights = mirrored * (
         m.kajiya_kay_primary_color * m.kajiya_kay_indirect.x
-            * environment_radiance(strand_mirrored(s, first), roughness)
         + m.kajiya_kay_secondary_color * strand.color * m.kajiya_kay_indirect.y
-            * environment_radiance(strand_mirrored(s, second), min(roughness + 0.25, 1.0))
-        + m.kajiya_kay_primary_color * m.kajiya_kay_indirect.z
-            * environment_radiance(reflect(-s.view, s.normal), roughness)
-    ) * (left * strand.occlusion);
+    );
+    @if(hair_blinn) lit.highlights += m.kajiya_kay_primary_color * m.kajiya_kay_indirect.z
+        * environment_radiance(reflect(-s.view, s.normal), 1.0 - m.kajiya_kay_smoothness);
+    lit.highlights *= left * strand.occlusion;
     return lit;
 }
 
@@ -122,6 +127,12 @@ fn fibre_entry(column: f32, row: f32, absorption: f32) -> vec4f {
     return textureSampleLevel(
         hair_table, hair_table_sampler, vec3f(column / TABLE_COLUMNS, (row * (size.y - 1.0) + 0.5) / size.y, slice), 0.0
     );
+}
+
+// Row of an inclination by its sine, 0 to 1.
+@if(hair_fibre)
+fn inclination_row(sin_o: f32) -> f32 {
+    return asin(min(abs(sin_o), 1.0)) / (0.5 * PI);
 }
 
 // Absorption of a strand, by its pigment or by its colour.
@@ -172,17 +183,18 @@ fn strand_lit(s: Surface, strand: Strand, to_light: vec3f, share: f32) -> Lit {
     let cos_i = sqrt(max(1.0 - sin_i * sin_i, 1e-6));
     let cos_phi = clamp((dot(s.view, to_light) - sin_o * sin_i) / (cos_o * cos_i), -1.0, 1.0);
     let column = 0.5 + acos(cos_phi) / PI * (TABLE_ANGLES - 1.0);
-    let row = asin(min(abs(sin_o), 1.0)) / (0.5 * PI);
-    let sigma = strand_absorption(strand);
+    let row = inclination_row(sin_o);
+    let sigma = strand.absorption;
     let v = m.fibre_variances;
     let to_r = fibre_tilted(sin_o, cos_o, m.fibre_tilt_r);
     let to_tt = fibre_tilted(sin_o, cos_o, m.fibre_tilt_tt);
     let to_trt = fibre_tilted(sin_o, cos_o, m.fibre_tilt_trt);
+    let scale = m.fibre_scales;
     let along = vec4f(
-        fibre_longitudinal(v.x, sin_i, cos_i, to_r.x, to_r.y),
-        fibre_longitudinal(v.y, sin_i, cos_i, to_tt.x, to_tt.y),
-        fibre_longitudinal(v.z, sin_i, cos_i, to_trt.x, to_trt.y),
-        fibre_longitudinal(v.w, sin_i, cos_i, sin_o, cos_o),
+        fibre_longitudinal(v.x, scale.x, sin_i, cos_i, to_r.x, to_r.y),
+        fibre_longitudinal(v.y, scale.y, sin_i, cos_i, to_tt.x, to_tt.y),
+        fibre_longitudinal(v.z, scale.z, sin_i, cos_i, to_trt.x, to_trt.y),
+        fibre_longitudinal(v.w, scale.w, sin_i, cos_i, sin_o, cos_o),
     );
     let r = fibre_entry(column, row, sigma.r) * along;
     let g = fibre_entry(column, row, sigma.g) * along;
@@ -190,7 +202,7 @@ fn strand_lit(s: Surface, strand: Strand, to_light: vec3f, share: f32) -> Lit {
     let reflected = vec3f(r.x);
     let inner = vec3f(r.z, g.z, b.z) + vec3f(r.w, g.w, b.w);
     let through = vec3f(r.y, g.y, b.y);
-    let e = fibre_energies(row, sigma);
+    let e = strand.energies;
     // Light arrives straight as far as no fibre is before it (Poisson), and through those that are. What is seen of a body of
     // strands lies at all depths, from which light of both kinds is lost (Lommel and Seeliger).
     // Strands stand out of the surface that they lie on.
@@ -200,10 +212,8 @@ fn strand_lit(s: Surface, strand: Strand, to_light: vec3f, share: f32) -> Lit {
     let with_scattered = body_share(e.forwards, n_dot_l, n_dot_v, m.fibre_packing)
         * exp(-strand.crossed * (1.0 - e.forwards)) * share;
     let scattered = max(with_scattered - straight, vec3f(0.0));
-    // Spread along the fibre by each that it has crossed.
-    let wide = fibre_longitudinal(v.w + 0.25 * v.x * strand.crossed, sin_i, cos_i, sin_o, cos_o);
-    let back = e.around * ((1.0 + cos_phi) / (2.0 * PI) * wide * m.fibre_scatter);
-    let on_all_sides = (e.forwards + e.backwards) * (wide / (2.0 * PI) * m.fibre_scatter);
+    let back = e.around * ((1.0 + cos_phi) / (2.0 * PI) * along.w * m.fibre_scatter);
+    let on_all_sides = (e.forwards + e.backwards) * (along.w / (2.0 * PI) * m.fibre_scatter);
     // A light of strength 1 is an irradiance of pi.
     let occluded = PI * strand.occlusion;
     var lit: Lit;
@@ -218,9 +228,7 @@ fn strand_lit(s: Surface, strand: Strand, to_light: vec3f, share: f32) -> Lit {
 fn strand_lit_from_around(s: Surface, strand: Strand) -> Lit {
     let m = &material.hair;
     let t = shifted_strand(strand.direction, s.normal, strand.shift);
-    let sin_o = clamp(dot(t, s.view), -1.0, 1.0);
-    let row = asin(min(abs(sin_o), 1.0)) / (0.5 * PI);
-    let e = fibre_energies(row, strand_absorption(strand));
+    let e = strand.energies;
     var lit: Lit;
     // R spreads as a rough mirror does.
     let roughness = saturate(sqrt(2.0 * sqrt(m.fibre_variances.x)));

@@ -77,7 +77,7 @@ fn longitudinal_scattering_follows_its_vectors() {
     let rows = rows(list, |c| directions(c, &["theta_i", "theta_r"]), &["v"]);
     let body = "
         output[out] =
-            fibre_longitudinal(input[base + 4u], input[base], input[base + 1u], input[base + 2u], input[base + 3u]);";
+            fibre_longitudinal(input[base + 4u], fibre_scale(input[base + 4u]), input[base], input[base + 1u], input[base + 2u], input[base + 3u]);";
     let found = run(&["fibre"], body, &rows, 1);
     for (i, (case, found)) in list.iter().zip(&found).enumerate() {
         let expected = numbers(case, &["M"])[0];
@@ -101,7 +101,7 @@ fn longitudinal_scattering_conserves_energy() {
         for (var k = 0; k < 8192; k++) {
             // Even steps of the sine: the cosine of the measure is in them.
             let o = (f32(k) + 0.5) / 4096.0 - 1.0;
-            sum += fibre_longitudinal(input[base], input[base + 1u], input[base + 2u], o, sqrt(1.0 - o * o));
+            sum += fibre_longitudinal(input[base], fibre_scale(input[base]), input[base + 1u], input[base + 2u], o, sqrt(1.0 - o * o));
         }
         output[out] = sum / 4096.0;";
     for (row, found) in rows.iter().zip(run(&["fibre"], body, &rows, 1)) {
@@ -209,10 +209,10 @@ fn the_whole_fibre_follows_its_vectors() {
         var m = vec4f(0.0);
         for (var p = 0u; p < 3u; p++) {
             let to = fibre_tilted(o.x, o.y, vec2f(input[base + 6u + 2u * p], input[base + 7u + 2u * p]));
-            m[p] = fibre_longitudinal(variances[p], i.x, i.y, to.x, to.y)
+            m[p] = fibre_longitudinal(variances[p], fibre_scale(variances[p]), i.x, i.y, to.x, to.y)
                 * trimmed_logistic(input[base + 12u] - fibre_exit(f32(p), c.gamma_i, c.gamma_t), s);
         }
-        m.w = fibre_longitudinal(variances.w, i.x, i.y, o.x, o.y) / (2.0 * PI);
+        m.w = fibre_longitudinal(variances.w, fibre_scale(variances.w), i.x, i.y, o.x, o.y) / (2.0 * PI);
         for (var k = 0u; k < 3u; k++) {
             output[out + k] = dot(m, fibre_attenuation(c.fresnel, exp(-input[base + 15u + k] * c.length)));
         }";
@@ -252,7 +252,7 @@ fn a_white_fibre_in_a_furnace_vanishes() {
             let i = (f32(k) + 0.5) / 1024.0 - 1.0;
             for (var p = 0; p < 4; p++) {
                 let to = fibre_tilted(o.x, o.y, tilts[p]);
-                along[p] += fibre_longitudinal(variances[p], i, sqrt(1.0 - i * i), to.x, to.y) / 1024.0;
+                along[p] += fibre_longitudinal(variances[p], fibre_scale(variances[p]), i, sqrt(1.0 - i * i), to.x, to.y) / 1024.0;
             }
         }
         var about = vec4f(0.0);
