@@ -30,6 +30,9 @@ cargo xtask TASK
                             byte; the pictures of a build are kept, so that OLD is drawn once only
   compare-references [DIR] [--write OUTDIR] [--only TEXT] [--json]
                             compare with pictures of another renderer (DIR: ../shared/models)
+  compare-real hair [DIR] [--only GLOB] [--json]
+                            compare real hair with pictures of a path tracer (DIR: ../shared/real; needs Python with
+                            numpy, scipy and pillow)
   vrm-check                 the built-in character in glTF-Validator and three-vrm (needs npm and Chromium)
   badinput [DIR]            feed the corpus of malformed files to `hikage` (DIR: ../shared/badinput)
 ";

@@ -1,9 +1,10 @@
 //! What the gallery shows.
 
+use hikage::Look;
 use hikage::color::{LinearRgb, Srgb};
 use hikage::material::{
-    Base, Blink, Decal, Decals, DepthRim, Dissolve, DitherFade, Emission, Fire, Fluff, Gem, Glow, InnerLines, Material,
-    Shading, ShapedHighlight, Stocking, TextureRef, Toon,
+    Base, Blink, Decal, Decals, DepthRim, Dissolve, DitherFade, Emission, Fire, Fluff, Gem, Glow, Hair, InnerLines,
+    Material, Shading, ShapedHighlight, Stocking, TextureRef, Toon,
 };
 use hikage::motion::Stance;
 use hikage::scene::{Bloom, Framing, Image, Post, PunctualLight, Sampler, Scene, Texture, ToneCurve};
@@ -93,7 +94,48 @@ pub(super) fn all() -> Vec<Sheet> {
     list.extend(cloth());
     list.extend(ornaments());
     list.extend(whole());
+    list.push(natural());
     list
+}
+
+/// Natural light: her hair in its own colour, then in those of presets, then drawn and half drawn.
+fn natural() -> Sheet {
+    let light = |yaw: f32, light: f32| Panel {
+        caption: format!("camera {yaw:.0}\u{b0}, light {light:.0}\u{b0}"),
+        camera: Camera::Framed(Framing::Portrait, yaw),
+        light_deg: [light, 35.0],
+        ..Panel::default()
+    };
+    let panels = || [light(0.0, -30.0), light(50.0, 10.0), light(180.0, 200.0), light(-20.0, 150.0)];
+    let lit = |change| Row { is_plain: true, change, panels: panels().into() };
+    Sheet {
+        name: "natural",
+        title: "Natural light and hair",
+        caption: "The natural look: physical surfaces in a studio (environment), hair as fibres (hair). Her own colour, the \
+                  presets brown, blond and black, then Kajiya-Kay highlights on toon shade (anime_silk) and half of each \
+                  (natural = 0.5).",
+        rows: vec![
+            lit(|scene| Look::Natural.apply(scene)),
+            lit(|scene| combed(scene, Hair::brown())),
+            lit(|scene| combed(scene, Hair::blond())),
+            lit(|scene| combed(scene, Hair::black())),
+            lit(|scene| silk(scene, 0.0)),
+            lit(|scene| silk(scene, 0.5)),
+        ],
+    }
+}
+
+/// The natural look with such hair.
+fn combed(scene: &mut Scene, hair: Hair) {
+    Look::Natural.apply(scene);
+    let highlight_color = [1.8; 3];
+    scene.materials.iter_mut().filter_map(|m| m.hair.as_mut()).for_each(|h| *h = Hair { highlight_color, ..hair });
+}
+
+/// Her file's toon shade under drawn highlights, as far as it stays.
+fn silk(scene: &mut Scene, natural: f32) {
+    let hair = Hair { natural, ..Hair::anime_silk() };
+    each_material(scene, "Hair", |m| m.hair = Some(hair));
 }
 
 fn head() -> Vec<Sheet> {
