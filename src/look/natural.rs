@@ -2,7 +2,7 @@
 
 use super::anime::materials_of;
 use crate::color::LinearRgb;
-use crate::material::{AlphaMode, CastShadow, FibreModel, Hair, Material, Origin, Rim, Shading, Standard};
+use crate::material::{AlphaMode, CastShadow, FibreModel, Hair, Material, Origin, Rim, Shading, Standard, Substance};
 use crate::scene::{DirectionalLight, Environment, Lights, Post, Role, Scene, SelfShadow, ToneCurve};
 
 /// Strengths of the key light and of the studio: together they show white skin just below white.
@@ -45,6 +45,11 @@ fn physical(material: &mut Material) {
     material.matcap = None;
     material.outline = None;
     material.cast_shadow = Some(CastShadow::default());
+    if let (Some(Substance::Metal), Shading::Standard(surface)) = (material.authored.substance, &mut material.shading) {
+        // A file that paints its shine paints the metal itself darker than it is.
+        *surface = Standard { metallic: 1.0, roughness: 0.3, ..*surface };
+        material.base.color.iter_mut().take(3).for_each(|c| *c *= 1.6);
+    }
     // Painted lights stay what they are.
     if material.alpha.mode == AlphaMode::Blend && material.origin == Origin::Unlit {
         material.shading = Shading::Unlit;

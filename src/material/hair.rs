@@ -95,9 +95,9 @@ crate::section! {
         /// Black, with a cold shine.
         black { fibre: FibreModel { eumelanin: 5.0, pheomelanin: 0.0, ..FibreModel::default() } }
         /// Dark brown.
-        brown { fibre: FibreModel { eumelanin: 0.8, pheomelanin: 0.25, ..FibreModel::default() } }
+        brown { fibre: FibreModel { eumelanin: 0.42, pheomelanin: 0.3, ..FibreModel::default() } }
         /// Golden blond.
-        blond { fibre: FibreModel { eumelanin: 0.16, pheomelanin: 0.22, ..FibreModel::default() } }
+        blond { fibre: FibreModel { eumelanin: 0.035, pheomelanin: 0.1, ..FibreModel::default() } }
         /// Without any pigment.
         white { fibre: FibreModel { eumelanin: 0.0, pheomelanin: 0.02, ..FibreModel::default() } }
         /// Bleached and dyed in the colour of its texture.
@@ -107,7 +107,7 @@ crate::section! {
             model: HairModel::KajiyaKay, natural: 0.0, steps: 2, edge: 0.25,
             kajiya_kay: KajiyaKay {
                 primary_exponent: 220.0, primary_shift: -0.05, secondary_exponent: 40.0, secondary_shift: 0.12,
-                direct: [0.55, 0.3, 0.0], ..KajiyaKay::default()
+                direct: [0.34, 0.12, 0.0], ..KajiyaKay::default()
             },
         }
     }

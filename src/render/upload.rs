@@ -14,6 +14,7 @@ use super::pass::shadow::{self, ShadowFit, ShadowMap};
 use super::pass::{Picture, Sight};
 use super::textures::{self, TextureSet};
 use super::{Renderer, bind, uv_metric};
+use crate::hair::holds_flow;
 use crate::material::{Encoding, Generated, MAX_SHELLS, Material, Surroundings, out_of_range};
 use crate::motion::Driven;
 use crate::scene::{Image, Mesh, Primitive, Scene};
@@ -79,6 +80,17 @@ impl Renderer {
             if let Some((key, message)) = material.clone().out_of_range() {
                 let what = format!("material {index} {:?}, {key}", material.name);
                 return Err(Error::Argument { what, message });
+            }
+        }
+        for (index, material) in sources.iter().enumerate() {
+            let image = |texture: usize| scene.images.get(scene.textures.get(texture)?.image);
+            let flow = material.hair.and_then(|h| image(h.flow_map?.texture));
+            // Of a picture that was emptied nothing is known.
+            if flow.is_some_and(|flow| !flow.pixels.is_empty() && !holds_flow(flow)) {
+                let what = format!("material {index} {:?}, hair.flow_map", material.name);
+                let message = "holds next to no directions; expected right in red and up in green, 0.5 for none (a normal map is \
+                               no flow map)";
+                return Err(Error::Argument { what, message: message.to_owned() });
             }
         }
         let metres_per_uv = uv_metric::metres_per_uv(scene);

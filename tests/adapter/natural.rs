@@ -271,6 +271,11 @@ fn absurd_hair_and_strands_that_cannot_be_found_are_refused_by_name() {
     );
     assert!(fault(absurd(FibreModel { ior: f32::NAN, ..FibreModel::default() })).contains("hair.fibre.ior"));
     let by_shape = Hair { direction: StrandDirection::Mesh, ..Hair::default() };
+    let mut combed = hair(Hair::default());
+    let normals = texture(&mut combed, 4, 4, |_, _| [128, 128, 255, 255]);
+    combed.materials[0].hair = Some(Hair { flow_map: Some(normals), ..Hair::default() });
+    let message = fault(combed);
+    assert!(message.contains("hair.flow_map") && message.contains("normal map"), "{message}");
     // A closed ball has neither root nor tip.
     let corners = [Vec3::X, Vec3::Y, Vec3::Z, Vec3::NEG_X, Vec3::NEG_Y, Vec3::NEG_Z].map(|c| c.to_array());
     let octahedron = Primitive {

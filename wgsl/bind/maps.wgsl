@@ -53,14 +53,16 @@ fn shadow_lit(actor: u32, at: vec4f, wanted: bool) -> f32 {
     return min(lit, actors[actor].key_light);
 }
 
-// How far light has come through a character to a place of its shadow map, metres: the mean over four by four texels.
+// How far light has come through a character to a place of its shadow map, metres: the mean of four by four places over twice
+// the width of a shadow's edge.
 fn shadow_thickness(actor: u32, at: vec4f) -> f32 {
     let layer = i32(round(at.w));
     let size = vec2i(textureDimensions(shadow_map));
-    let first = vec2i(floor(at.xy * vec2f(size) - 0.5)) - 1;
+    let step = max(actors[actor].shadow_spread * f32(size.x) * 0.5, 1.0);
+    let first = at.xy * vec2f(size) - 1.5 * step;
     var sum = 0.0;
     for (var i = 0; i < 16; i++) {
-        let texel = clamp(first + vec2i(i % 4, i / 4), vec2i(0), size - 1);
+        let texel = clamp(vec2i(first + vec2f(f32(i % 4), f32(i / 4)) * step), vec2i(0), size - 1);
         sum += max(at.z - textureLoad(shadow_map, texel, max(layer, 0), 0), 0.0);
     }
     let is_outside = any(at.xy <= vec2f(0.0)) || any(at.xy >= vec2f(1.0)) || layer < 0;

@@ -37,6 +37,9 @@ struct Strand {
 // energy of path-traced hair of all colours (`cargo xtask compare-real hair`): each alone leaves out what the other has.
 const BACK: f32 = 0.9;
 const ON: f32 = 0.55;
+// Share of light from behind that what is seen of a body gets: of a layer as deep as one sees into it at most 1/e, less of deeper
+// ones.
+const FROM_BEHIND: f32 = 0.2;
 
 // Light of one direction on it: its body, and its highlights.
 struct Lit {
@@ -169,7 +172,7 @@ fn body_share(forwards: vec3f, n_dot_l: f32, n_dot_v: f32, packing: f32) -> vec3
     let before = wrapped_lambert(n_dot_l, material.hair.wrap);
     let kept = before / max(before + n_dot_v * (1.0 - forwards), vec3f(1e-3));
     let behind = 1.0 - smoothstep(-0.6, 0.2, n_dot_l);
-    return mix(vec3f(1.0), mix(kept, vec3f(0.37), behind), packing);
+    return mix(vec3f(1.0), mix(kept, vec3f(FROM_BEHIND), behind), packing);
 }
 
 @if(hair_fibre)
