@@ -403,7 +403,7 @@ fn a_look_beside_the_model_is_used() {
     let error = fails(&folder, &["render", "triangle.gltf", "-o", "bad.png", "--look", "none.look.toml"], 1);
     assert!(error.contains("none.look.toml"), "{error}");
     let error = fails(&folder, &["render", "triangle.gltf", "-o", "bad.png", "--look", "pretty"], 2);
-    assert!(error.contains("plain, anime or a look file"), "{error}");
+    assert!(error.contains("plain, anime, natural or a look file"), "{error}");
     assert!(!folder.join("bad.png").exists());
 }
 
