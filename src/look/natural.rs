@@ -48,7 +48,7 @@ fn physical(material: &mut Material) {
     if let (Some(Substance::Metal), Shading::Standard(surface)) = (material.authored.substance, &mut material.shading) {
         // A file that paints its shine paints the metal itself darker than it is.
         *surface = Standard { metallic: 1.0, roughness: 0.3, ..*surface };
-        material.base.color.iter_mut().take(3).for_each(|c| *c *= 1.6);
+        material.base.color.iter_mut().take(3).for_each(|c| *c = (*c * 1.6).min(1.0));
     }
     // Painted lights stay what they are.
     if material.alpha.mode == AlphaMode::Blend && material.origin == Origin::Unlit {

@@ -74,7 +74,8 @@ crate::section! {
         shift_map: Option<TextureRef> = None, read LINEAR_REPEAT;
         /// How far: tangent of the angle between the map's ends.
         shift_amount: f32 = 0.3, in -2.0..=2.0;
-        /// How far light comes round the hair as `kajiya-kay`: 0 Lambert, 1 half Lambert.
+        /// How far light comes round the hair: 0 Lambert, 1 half Lambert; of fibres, how far they stand out of the surface that
+        /// they lie on.
         wrap: f32 = 0.5, in 0.0..=1.0;
         /// How far the occlusion of strips is followed.
         occlusion: f32 = 1.0, in 0.0..=1.0;
@@ -84,7 +85,7 @@ crate::section! {
         steps: u32 = 0, in 0..=8;
         /// Softness of the edges of bands, share of a band.
         edge: f32 = 0.1, in 0.0..=1.0;
-        /// What highlights are multiplied by, linear.
+        /// What highlights of lights are multiplied by, linear; those of what is around stay.
         highlight_color: [f32; 3] = [1.0; 3], in 0.0..=10.0;
         /// Its numbers as `kajiya-kay`.
         kajiya_kay: KajiyaKay = KajiyaKay::default(), part KajiyaKay;

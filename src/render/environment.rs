@@ -124,7 +124,7 @@ fn make(variants: &Variants, of: &Radiance, sampler: &wgpu::Sampler) -> Result<E
         bind_group_layouts: &[Some(&layout)],
         immediate_size: 0,
     });
-    let into = targets::PictureTarget { format: HDR_FORMAT, samples: 1, blend: None };
+    let into = targets::PictureTarget::of(HDR_FORMAT, 1, None);
     let pipeline = targets::picture_pipeline(gpu, "environment", Some(&pipeline_layout), &module, "fs_main", into);
     let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("environment") });
     for which in 0..6 * LEVELS {

@@ -66,13 +66,13 @@ impl Looks {
         }
         let layers = |m: &Material| (m.blending(), m.has_core(), m.alpha.front_writes_depth, m.strips.map(|s| s.sort));
         let alpha = |m: &Material| (m.alpha.mode, m.alpha.hashed, m.alpha.write_depth, m.alpha.queue_offset);
-        let fixed = |m: &Material| (alpha(m), m.double_sided, layers(m));
+        let fixed = |m: &Material| (alpha(m), m.double_sided, layers(m), m.hair.map(|h| h.direction));
         let mut other = material.clone();
         let sections: Vec<&str> = other.sections_mut().map(|section| section.about().key).collect();
         let composed = Composition::new(shaders, &self.surroundings(index, material));
         let difference = match fixed(material) == fixed(source) {
             true => self.compositions[index].difference(&composed, &sections),
-            false => Some("its alpha mode, draw order or sides are others".to_owned()),
+            false => Some("its alpha mode, draw order, sides or strands' direction are others".to_owned()),
         };
         difference.map_or(Ok(()), |difference| {
             let message = format!(

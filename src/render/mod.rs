@@ -100,9 +100,7 @@ impl Output {
     pub(crate) fn depth_format(self, gpu: &Gpu) -> wgpu::TextureFormat {
         self.depth.map_or_else(|| pass::color_depth_format(gpu), |depth| depth.format)
     }
-}
 
-impl Output {
     /// Share of a pixel over which pictures are moved that are averaged. Four samples lie within a pixel already: places that
     /// fill all of it would blur.
     pub(crate) fn reach(self) -> f32 {

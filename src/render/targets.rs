@@ -150,11 +150,20 @@ pub(crate) fn picture_group(
 }
 
 /// What a pass over whole pictures draws into.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct PictureTarget {
-    pub format: wgpu::TextureFormat,
-    pub samples: u32,
-    pub blend: Option<wgpu::BlendState>,
+    pub colors: Vec<Option<wgpu::ColorTargetState>>,
+    pub multisample: wgpu::MultisampleState,
+    pub depth: Option<wgpu::DepthStencilState>,
+}
+
+impl PictureTarget {
+    /// One colour without a depth.
+    pub fn of(format: wgpu::TextureFormat, samples: u32, blend: Option<wgpu::BlendState>) -> Self {
+        let color = wgpu::ColorTargetState { format, blend, write_mask: wgpu::ColorWrites::ALL };
+        let multisample = wgpu::MultisampleState { count: samples, ..Default::default() };
+        Self { colors: vec![Some(color)], multisample, depth: None }
+    }
 }
 
 /// Pipeline of a pass over whole pictures; without a layout, the shader's own.
@@ -166,7 +175,7 @@ pub(crate) fn picture_pipeline(
     fragment: &str,
     into: PictureTarget,
 ) -> wgpu::RenderPipeline {
-    let PictureTarget { format, samples, blend } = into;
+    let PictureTarget { colors, multisample, depth } = into;
     gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some(label),
         layout,
@@ -177,13 +186,13 @@ pub(crate) fn picture_pipeline(
             buffers: &[],
         },
         primitive: wgpu::PrimitiveState::default(),
-        depth_stencil: None,
-        multisample: wgpu::MultisampleState { count: samples, ..Default::default() },
+        depth_stencil: depth,
+        multisample,
         fragment: Some(wgpu::FragmentState {
             module,
             entry_point: Some(fragment),
             compilation_options: wgpu::PipelineCompilationOptions::default(),
-            targets: &[Some(wgpu::ColorTargetState { format, blend, write_mask: wgpu::ColorWrites::ALL })],
+            targets: &colors,
         }),
         multiview_mask: None,
         cache: None,

@@ -66,13 +66,13 @@ impl Environment {
                 self.turn_rad, self.strength
             ));
         }
-        self.radiance.check()
+        Ok(())
     }
 }
 
 /// Radiance from all directions as an equirectangular picture, linear. Its middle is what a camera in front of the character
 /// sees behind it (-Z), its right is to the right of that picture (+X), its top is above.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Radiance {
     width: u32,
     height: u32,

@@ -57,6 +57,21 @@ struct Border {
     bangs: vec3f,
 }
 
+// What looks of the stage `shade` start from, where light falls on the whole of it.
+fn border_of(s: Surface) -> Border {
+    var b: Border;
+    b.lit = s.lit;
+    b.shade = s.shade;
+    b.shading = 1.0;
+    b.soft = 1.0;
+    b.of_face = 1.0;
+    b.of_body = 1.0;
+    b.own_lit = 1.0;
+    b.tint = vec3f(1.0);
+    b.bangs = vec3f(1.0);
+    return b;
+}
+
 // A surface that its model has shaded.
 struct Shaded {
     // Light from lamps and from all around, and of its own; they are added.

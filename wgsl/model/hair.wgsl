@@ -3,13 +3,13 @@ import package::bind::actor::actors;
 import package::bind::environment::{environment_irradiance, environment_radiance};
 import package::bind::frame::frame;
 import package::bind::lights::punctual_light;
+import package::bind::maps::shadow_thickness;
 import package::bind::shown::shown;
 import package::bind::surface::{Shaded, Surface};
 import package::lib::bands::banded;
 import package::lib::fibre::{fibre_absorption, fibre_longitudinal, fibre_tilted};
 import package::lib::kajiya_kay::{shifted_strand, strand_specular, wrapped_lambert};
 import package::lib::light::luminance;
-import package::bind::maps::shadow_thickness;
 import package::look::hair::{strand_direction, strand_shift};
 import package::look::strips::{grayness_of_strips, occlusion_of_strips};
 import package::material::{hair_table, hair_table_sampler, material};
@@ -207,8 +207,8 @@ fn strand_lit(s: Surface, strand: Strand, to_light: vec3f, share: f32) -> Lit {
     let through = vec3f(r.y, g.y, b.y);
     let e = strand.energies;
     // Light arrives straight as far as no fibre is before it (Poisson), and through those that are. What is seen of a body of
-    // strands lies at all depths, from which light of both kinds is lost (Lommel and Seeliger).
-    // Strands stand out of the surface that they lie on.
+    // strands lies at all depths, from which light of both kinds is lost (Lommel and Seeliger). Strands stand out of the
+    // surface that they lie on.
     let n_dot_l = dot(s.normal, to_light);
     let n_dot_v = wrapped_lambert(dot(s.normal, s.view), m.wrap);
     let straight = body_share(vec3f(0.0), n_dot_l, n_dot_v, m.fibre_packing).x * exp(-strand.crossed) * share;
@@ -255,10 +255,15 @@ fn hair_model(s: Surface) -> Shaded {
     let m = &material.hair;
     let strand = strand_of(s);
     @if(channel_strands) shown = strand.direction * 0.5 + 0.5;
-    var l = physical_light(s, true);
-    // What light loses on its way through hair is no matter of lit or not.
-    var share = l.own_lit;
-    @if(hair_fibre && cast_shadow) share = actors[s.at.actor].key_light;
+    // What light loses on its way through fibres is no matter of lit or not: no map need say so.
+    @if(!hair_fibre || !cast_shadow) var l = physical_light(s, true);
+    @if(!hair_fibre || !cast_shadow) let share = l.own_lit;
+    @if(hair_fibre && cast_shadow) var l = physical_light(s, false);
+    @if(hair_fibre && cast_shadow) let share = actors[s.at.actor].key_light;
+    @if(hair_fibre && cast_shadow) {
+        l.own_lit = exp(-strand.crossed) * share;
+        l.shading = l.own_lit;
+    }
     var direct = strand_lit(s, strand, frame.to_light, share);
     direct.body *= s.light;
     direct.highlights *= s.light;

@@ -3,7 +3,7 @@ import package::bind::environment::{environment_brdf, environment_irradiance, en
 import package::bind::frame::frame;
 import package::bind::lights::punctual_light;
 import package::bind::shown::shown;
-import package::bind::surface::{Border, Shaded, Surface, shaded_of};
+import package::bind::surface::{Shaded, Surface, border_of, shaded_of};
 import package::bind::uv::texture_uv;
 import package::lib::brdf::{LEAST_ALPHA, f0_of_ior, ggx_distribution, schlick, smith_visibility};
 import package::material::{
@@ -37,16 +37,9 @@ fn standard_lobe(s: Surface, m: Substance, to_light: vec3f) -> vec3f {
 // and what comes from all around.
 fn physical_light(s: Surface, wanted: bool) -> Shaded {
     var l = shaded_of(s);
-    var b: Border;
-    b.lit = s.lit;
+    var b = border_of(s);
     b.shade = s.lit;
-    b.of_face = 1.0;
-    b.of_body = 1.0;
-    b.own_lit = 1.0;
-    b.tint = vec3f(1.0);
-    b.bangs = vec3f(1.0);
     b.shading = f32(wanted);
-    b.soft = 1.0;
     l.shading = stage_shade(s, b).shading;
     l.own_lit = l.shading;
     l.gi = environment_irradiance(s.normal);

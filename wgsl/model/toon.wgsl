@@ -2,7 +2,7 @@
 import package::bind::frame::frame;
 import package::bind::lights::{ambient, punctual_light};
 import package::bind::shown::shown;
-import package::bind::surface::{Border, Shaded, Surface, shaded_of, taken_from_lamps};
+import package::bind::surface::{Border, Shaded, Surface, border_of, shaded_of, taken_from_lamps};
 import package::bind::uv::texture_uv;
 import package::lib::light::{lamp_shade, luminance};
 import package::lib::mtoon::{mtoon_direct, mtoon_gi, mtoon_shading};
@@ -19,21 +19,13 @@ fn soft_width() -> f32 {
 
 // Where light ends: on the normals, and then as looks have it.
 fn toon_border(s: Surface) -> Border {
-    var b: Border;
-    b.lit = s.lit;
-    b.shade = s.shade;
-    b.of_face = 1.0;
-    b.of_body = 1.0;
-    b.own_lit = 1.0;
-    b.tint = vec3f(1.0);
-    b.bangs = vec3f(1.0);
+    var b = border_of(s);
     var shift = material.toon.shift;
     @if(toon_shift_texture) shift += material.toon.shift_texture_scale * textureSample(
         toon_shift_texture, toon_shift_texture_sampler, texture_uv(s.uv, material.toon.shift_texture_uv)
     ).r;
     b.shading = mtoon_shading(s.n_dot_l, shift, material.toon.toony);
     b.shift = shift;
-    b.soft = 1.0;
     @if(soft) b.soft = smoothstep(-soft_width(), soft_width(), s.n_dot_l + shift);
     b = stage_shade(s, b);
     @if(channel_face_shadow && face_shadow) shown = vec3f(b.shading);

@@ -8,6 +8,7 @@ use crate::render::bind;
 use crate::render::environment::EnvironmentMap;
 use crate::render::made::lock;
 use crate::render::shaders::Recipe;
+use crate::render::targets::{self, PictureTarget};
 use crate::render::variants::{Request, Variants};
 use crate::{Gpu, Result};
 
@@ -17,6 +18,8 @@ pub(crate) struct BackgroundPass {
     group: wgpu::BindGroupLayout,
     pipeline: wgpu::PipelineLayout,
     made: Mutex<HashMap<bool, wgpu::RenderPipeline>>,
+    /// How the last picture is read.
+    read: Mutex<Option<(wgpu::TextureView, wgpu::BindGroup)>>,
 }
 
 /// What the pass reads.
@@ -37,17 +40,27 @@ impl BackgroundPass {
             bind_group_layouts: &[Some(frame), Some(&group)],
             immediate_size: 0,
         });
-        Self { group, pipeline, made: Mutex::default() }
+        Self { group, pipeline, made: Mutex::default(), read: Mutex::default() }
     }
 
     /// Draws it.
     pub fn encode(&self, pass: &mut wgpu::RenderPass<'_>, inputs: &BackgroundInputs<'_>) -> Result<()> {
-        let resources = [wgpu::BindingResource::TextureView(&inputs.map.picture)];
         pass.set_pipeline(&self.pipeline(inputs.variants, inputs.picture)?);
         pass.set_bind_group(0, inputs.frame, &[]);
-        pass.set_bind_group(1, &bind::group(&inputs.variants.gpu, "background", &self.group, resources), &[]);
+        pass.set_bind_group(1, &self.read(&inputs.variants.gpu, &inputs.map.picture), &[]);
         pass.draw(0..3, 0..1);
         Ok(())
+    }
+
+    fn read(&self, gpu: &Gpu, picture: &wgpu::TextureView) -> wgpu::BindGroup {
+        let mut read = lock(&self.read);
+        if let Some((_, known)) = read.as_ref().filter(|(of, _)| of == picture) {
+            return known.clone();
+        }
+        let resources = [wgpu::BindingResource::TextureView(picture)];
+        let group = bind::group(gpu, "background", &self.group, resources);
+        *read = Some((picture.clone(), group.clone()));
+        group
     }
 
     fn pipeline(&self, variants: &Variants, picture: &Picture<'_>) -> Result<wgpu::RenderPipeline> {
@@ -57,33 +70,16 @@ impl BackgroundPass {
         let drawing = Drawing { cull: None, blend: false, write_depth: false, mark: Mark::None };
         let Request { recipe, state } = picture.request(Recipe::plain("background"), drawing);
         let module = variants.plain_module(&recipe)?;
-        let targets: Vec<_> = state.targets.into_iter().map(Some).collect();
-        let depth = state.depth.map(|d| wgpu::DepthStencilState {
-            // Nothing is behind it and nothing has been drawn.
-            depth_compare: Some(wgpu::CompareFunction::Always),
-            ..d
-        });
-        let made = variants.gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-            label: Some("background"),
-            layout: Some(&self.pipeline),
-            vertex: wgpu::VertexState {
-                module: &module,
-                entry_point: Some("vs_main"),
-                compilation_options: wgpu::PipelineCompilationOptions::default(),
-                buffers: &[],
-            },
-            primitive: wgpu::PrimitiveState::default(),
-            depth_stencil: depth,
+        let into = PictureTarget {
+            colors: state.targets.into_iter().map(Some).collect(),
             multisample: wgpu::MultisampleState { count: state.samples, ..Default::default() },
-            fragment: Some(wgpu::FragmentState {
-                module: &module,
-                entry_point: Some("fs_main"),
-                compilation_options: wgpu::PipelineCompilationOptions::default(),
-                targets: &targets,
-            }),
-            multiview_mask: None,
-            cache: None,
-        });
+            // Nothing is behind it and nothing has been drawn.
+            depth: state
+                .depth
+                .map(|d| wgpu::DepthStencilState { depth_compare: Some(wgpu::CompareFunction::Always), ..d }),
+        };
+        let gpu = &variants.gpu;
+        let made = targets::picture_pipeline(gpu, "background", Some(&self.pipeline), &module, "fs_main", into);
         lock(&self.made).insert(picture.sight.hdr, made.clone());
         Ok(made)
     }

@@ -25,7 +25,7 @@ pub(crate) struct BangsNearInputs<'a> {
 impl BangsNearPass {
     pub fn new(variants: &Variants) -> Result<Self> {
         let module = variants.plain_module(&Recipe::plain("bangs_near"))?;
-        let into = PictureTarget { format: bangs_shadow::FORMAT, samples: 1, blend: None };
+        let into = PictureTarget::of(bangs_shadow::FORMAT, 1, None);
         let pipeline = targets::picture_pipeline(&variants.gpu, "bangs near", None, &module, "fs_main", into);
         Ok(Self { pipeline })
     }

@@ -38,7 +38,7 @@ impl BloomPass {
             immediate_size: 0,
         });
         let make = |entry, blend| {
-            let into = PictureTarget { format: HDR_FORMAT, samples: 1, blend };
+            let into = PictureTarget::of(HDR_FORMAT, 1, blend);
             targets::picture_pipeline(gpu, "bloom", Some(&pipeline_layout), &module, entry, into)
         };
         let (down, up) = (make("fs_down", None), make("fs_up", Some(ADD)));

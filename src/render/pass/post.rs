@@ -109,10 +109,7 @@ fn pipeline(
 ) -> Result<wgpu::RenderPipeline> {
     let recipe = Recipe::plain("post").with("encode_srgb", encodes_srgb(output.format)).with("antialias", kind.smooths);
     let module = variants.plain_module(&recipe)?;
-    let into = PictureTarget {
-        format: output.format,
-        samples: kind.samples,
-        blend: kind.is_over.then_some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
-    };
+    let blend = kind.is_over.then_some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING);
+    let into = PictureTarget::of(output.format, kind.samples, blend);
     Ok(targets::picture_pipeline(&variants.gpu, "post", Some(layout), &module, "fs_main", into))
 }

@@ -4,6 +4,7 @@
 use super::encodes_srgb;
 use super::weighted::WeightedTargets;
 use crate::render::shaders::Recipe;
+use crate::render::targets::{self, PictureTarget};
 use crate::render::variants::Variants;
 use crate::render::{Output, bind};
 use crate::{Gpu, Result};
@@ -36,33 +37,13 @@ impl ResolvePass {
             .with("multisampled", multisampled)
             .with("encode_srgb", encodes_srgb(output.format));
         let module = variants.plain_module(&recipe)?;
+        let blend = Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING);
         let pipeline = |sample: u32| {
-            gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-                label: Some("resolve"),
-                layout: Some(&pipeline_layout),
-                vertex: wgpu::VertexState {
-                    module: &module,
-                    entry_point: Some("vs_main"),
-                    compilation_options: wgpu::PipelineCompilationOptions::default(),
-                    buffers: &[],
-                },
-                primitive: wgpu::PrimitiveState::default(),
-                depth_stencil: None,
-                // Each draws its sample alone: no device need run fragments for every sample.
-                multisample: wgpu::MultisampleState { count: output.samples, mask: 1 << sample, ..Default::default() },
-                fragment: Some(wgpu::FragmentState {
-                    module: &module,
-                    entry_point: Some(&format!("fs_sample_{sample}")),
-                    compilation_options: wgpu::PipelineCompilationOptions::default(),
-                    targets: &[Some(wgpu::ColorTargetState {
-                        format: output.format,
-                        blend: Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
-                        write_mask: wgpu::ColorWrites::ALL,
-                    })],
-                }),
-                multiview_mask: None,
-                cache: None,
-            })
+            let mut into = PictureTarget::of(output.format, output.samples, blend);
+            // Each draws its sample alone: no device need run fragments for every sample.
+            into.multisample.mask = 1 << sample;
+            let entry = format!("fs_sample_{sample}");
+            targets::picture_pipeline(gpu, "resolve", Some(&pipeline_layout), &module, &entry, into)
         };
         Ok(Self { format: output.format, pipelines: (0..output.samples).map(pipeline).collect(), layout })
     }

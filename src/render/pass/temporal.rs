@@ -8,7 +8,7 @@ use crate::render::bind;
 use crate::render::layout::Filled;
 use crate::render::numbers::temporal_numbers;
 use crate::render::shaders::Recipe;
-use crate::render::targets;
+use crate::render::targets::{self, PictureTarget};
 use crate::render::uploads::Uploads;
 use crate::render::variants::Variants;
 use crate::{Gpu, Result};
@@ -85,27 +85,11 @@ impl TemporalPass {
             immediate_size: 0,
         });
         let module = variants.plain_module(&Recipe::plain("temporal"))?;
-        let pipeline = gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-            label: Some("temporal"),
-            layout: Some(&pipeline_layout),
-            vertex: wgpu::VertexState {
-                module: &module,
-                entry_point: Some("vs_main"),
-                compilation_options: wgpu::PipelineCompilationOptions::default(),
-                buffers: &[],
-            },
-            primitive: wgpu::PrimitiveState::default(),
-            depth_stencil: None,
-            multisample: wgpu::MultisampleState::default(),
-            fragment: Some(wgpu::FragmentState {
-                module: &module,
-                entry_point: Some("fs_main"),
-                compilation_options: wgpu::PipelineCompilationOptions::default(),
-                targets: &[Some(HDR_FORMAT.into()), Some(PAST_FORMAT.into())],
-            }),
-            multiview_mask: None,
-            cache: None,
-        });
+        let into = PictureTarget {
+            colors: vec![Some(HDR_FORMAT.into()), Some(PAST_FORMAT.into())],
+            ..PictureTarget::of(HDR_FORMAT, 1, None)
+        };
+        let pipeline = targets::picture_pipeline(gpu, "temporal", Some(&pipeline_layout), &module, "fs_main", into);
         let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
         let uniform = bind::buffer(gpu, "temporal", numbers.size(), usage);
         Ok(Self { layout, pipeline, sampler: targets::linear_sampler(gpu), numbers, uniform })

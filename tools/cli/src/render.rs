@@ -313,6 +313,9 @@ fn seen(args: &Args, shot: &Shot, stage: &mut Stage) -> Result<View, Failure> {
     if let Some(background) = args.background {
         view.background = background;
     }
+    if view.background == Background::Environment && stage.lights.environment.is_none() {
+        return Err(Failure::input("--background environment: there is no environment; add --environment studio"));
+    }
     view.channel = args.channel;
     if let Some(ground) = &mut stage.ground {
         // It begins to fade where the picture of a whole character ends.
