@@ -1,21 +1,20 @@
 //! Which way strands run at each vertex, in the place of tangents.
 
-use glam::{Mat4, Vec2, Vec3};
+use glam::{Vec2, Vec3};
 
 use super::{HairStrips, NoStrips};
 use crate::material::{Hair, StrandDirection};
 use crate::scene::Primitive;
 
 /// Directions from root to tip in mesh space, unit, with the sign of a bitangent, for the vertices of a primitive; those of its
-/// texture where a flow map is read in them. `rest` takes it to character space, `head` is the middle of the head there.
+/// texture where a flow map is read in them. `strips` finds its strips.
 ///
 /// # Errors
 /// It is to go by its shape, and that has no strips.
-pub(crate) fn tangents(
+pub(crate) fn tangents<'a>(
     of: &Hair,
     primitive: &Primitive,
-    rest: Mat4,
-    head: Option<Vec3>,
+    strips: impl FnOnce() -> Result<&'a HairStrips, NoStrips>,
 ) -> Result<Vec<[f32; 4]>, NoStrips> {
     let by_texture = |along: Vec2| gradients(primitive, of.flow_map.map_or(0, |t| t.uv_set as usize), along);
     let directions = match of.direction {
@@ -23,7 +22,7 @@ pub(crate) fn tangents(
         StrandDirection::Auto if !primitive.strands.is_empty() => primitive.strands.clone(),
         StrandDirection::Auto | StrandDirection::UvV => by_texture(Vec2::Y),
         StrandDirection::UvU => by_texture(Vec2::X),
-        StrandDirection::Mesh => HairStrips::of(primitive, rest, head)?.directions,
+        StrandDirection::Mesh => strips()?.directions.clone(),
     };
     Ok(directions.into_iter().map(|[x, y, z]| [x, y, z, 1.0]).collect())
 }
@@ -77,34 +76,35 @@ mod tests {
         }
     }
 
+    /// Without strips.
+    fn found(hair: &Hair, primitive: &Primitive) -> Vec<[f32; 4]> {
+        tangents(hair, primitive, || Err(NoStrips::Empty)).expect("directions")
+    }
+
     #[test]
     fn strands_follow_the_texture() {
-        let of = |direction| {
-            let hair = Hair { direction, ..Hair::default() };
-            tangents(&hair, &quad(), Mat4::IDENTITY, None).expect("directions")
-        };
+        let of = |direction| found(&Hair { direction, ..Hair::default() }, &quad());
         assert_eq!(of(StrandDirection::UvV), [[0.0, -1.0, 0.0, 1.0]; 4]);
         assert_eq!(of(StrandDirection::UvU), [[1.0, 0.0, 0.0, 1.0]; 4]);
         // Mirrored in the texture.
         let mut mirrored = quad();
         mirrored.uvs[0].iter_mut().for_each(|uv| uv[0] = 1.0 - uv[0]);
         let hair = Hair { direction: StrandDirection::UvU, ..Hair::default() };
-        assert_eq!(tangents(&hair, &mirrored, Mat4::IDENTITY, None).ok(), Some(vec![[-1.0, 0.0, 0.0, 1.0]; 4]));
+        assert_eq!(found(&hair, &mirrored), [[-1.0, 0.0, 0.0, 1.0]; 4]);
     }
 
     #[test]
     fn a_flow_map_is_read_in_the_axes_of_the_texture() {
         let hair = Hair { flow_map: Some(Default::default()), ..Hair::default() };
-        assert_eq!(tangents(&hair, &quad(), Mat4::IDENTITY, None).ok(), Some(vec![[1.0, 0.0, 0.0, 1.0]; 4]));
+        assert_eq!(found(&hair, &quad()), [[1.0, 0.0, 0.0, 1.0]; 4]);
         let mut mirrored = quad();
         mirrored.uvs[0].iter_mut().for_each(|uv| uv[0] = 1.0 - uv[0]);
-        assert_eq!(tangents(&hair, &mirrored, Mat4::IDENTITY, None).ok(), Some(vec![[-1.0, 0.0, 0.0, -1.0]; 4]));
+        assert_eq!(found(&hair, &mirrored), [[-1.0, 0.0, 0.0, -1.0]; 4]);
     }
 
     #[test]
     fn what_the_file_says_comes_first() {
         let file = Primitive { strands: vec![[0.0, 0.6, 0.8]; 4], ..quad() };
-        let found = tangents(&Hair::default(), &file, Mat4::IDENTITY, None).expect("directions");
-        assert_eq!(found, [[0.0, 0.6, 0.8, 1.0]; 4]);
+        assert_eq!(found(&Hair::default(), &file), [[0.0, 0.6, 0.8, 1.0]; 4]);
     }
 }

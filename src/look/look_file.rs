@@ -295,6 +295,11 @@ impl LookFile {
                 let made = match source.as_str() {
                     "studio" => Environment::studio(),
                     "sky" => Environment::sky(),
+                    name if !name.contains('.') => {
+                        let known = ["studio", "sky"].into_iter();
+                        let message = no_such("environment", name, known);
+                        return Err(self.fault("environment.source", format!("{message}; or name an .hdr file")));
+                    }
                     file => Environment::new(load_radiance(self.beside_this(Path::new(file), "environment.source")?)?),
                 };
                 Some(Environment { turn_rad, strength, ..made })

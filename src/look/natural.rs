@@ -2,7 +2,10 @@
 
 use super::anime::materials_of;
 use crate::color::LinearRgb;
-use crate::material::{AlphaMode, CastShadow, FibreModel, Hair, Material, Origin, Rim, Shading, Standard, Substance};
+use crate::material::{
+    Alpha, AlphaMode, Blending, CastShadow, FibreModel, Hair, Material, Origin, Rim, Shading, Standard, Strips,
+    Substance,
+};
 use crate::scene::{DirectionalLight, Environment, Lights, Post, Role, Scene, SelfShadow, ToneCurve};
 
 /// Strengths of the key light and of the studio: together they show white skin just below white.
@@ -81,4 +84,9 @@ fn eye(material: &mut Material) {
 fn hair(material: &mut Material) {
     let fibre = FibreModel { of_base: 1.0, longitudinal: 0.2, azimuthal: 0.35, ..FibreModel::default() };
     material.hair = Some(Hair { fibre, highlight_color: [1.8; 3], ..Hair::default() });
+    // Cards lie over each other, and what is denser than not hides what is behind.
+    if material.alpha.mode == AlphaMode::Blend {
+        material.alpha = Alpha { blending: Blending::ThreePass, opaque_cutoff: 0.5, ..material.alpha };
+        material.strips = Some(Strips::default());
+    }
 }

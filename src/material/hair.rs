@@ -80,7 +80,7 @@ crate::section! {
         /// How far the occlusion of strips is followed.
         occlusion: f32 = 1.0, in 0.0..=1.0;
         /// Which of its three strengths: 0 to 2.
-        occlusion_strength: u32 = 2, in 0..=2;
+        occlusion_strength: u32 = 0, in 0..=2;
         /// Bands of highlights, as painters cut them; 0 for smooth ones.
         steps: u32 = 0, in 0..=8;
         /// Softness of the edges of bands, share of a band.
@@ -98,7 +98,7 @@ crate::section! {
         /// Dark brown.
         brown { fibre: FibreModel { eumelanin: 0.42, pheomelanin: 0.3, ..FibreModel::default() } }
         /// Golden blond.
-        blond { fibre: FibreModel { eumelanin: 0.035, pheomelanin: 0.1, ..FibreModel::default() } }
+        blond { fibre: FibreModel { eumelanin: 0.0, pheomelanin: 0.2, ..FibreModel::default() } }
         /// Without any pigment.
         white { fibre: FibreModel { eumelanin: 0.0, pheomelanin: 0.02, ..FibreModel::default() } }
         /// Bleached and dyed in the colour of its texture.
@@ -153,6 +153,9 @@ crate::part! {
         dye: [f32; 3] = [1.0; 3], in 0.0..=1.0;
         /// How far the base colour takes the place of all pigment.
         of_base: f32 = 0.0, in 0.0..=1.0;
+        /// How far strands that are light and dark in the base texture have less and more pigment and dye than the hair about
+        /// them: 1 as light and dark as there.
+        variation: f32 = 1.0, in 0.0..=4.0;
         /// Roughness along the fibre.
         longitudinal: f32 = 0.3, in 0.05..=1.0;
         /// Roughness round it.
@@ -232,6 +235,8 @@ impl Section for Hair {
         on.set("hair_toon", is_toon && self.natural < 1.0);
         on.set("hair_kajiya_kay", self.model == HairModel::KajiyaKay);
         on.set("hair_fibre", self.model == HairModel::Fibre);
+        let is_varied = self.fibre.of_base < 1.0 && self.fibre.variation > 0.0 && of.material.base.texture.is_some();
+        on.set("hair_varied", self.model == HairModel::Fibre && is_varied);
         on.set("hair_blinn", self.kajiya_kay.direct[2].max(self.kajiya_kay.indirect[2]) > 0.0);
         on.set("hair_bands", self.steps > 0);
         on.set("hair_turned", self.turn_rad != 0.0);

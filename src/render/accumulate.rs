@@ -5,9 +5,8 @@
 //! The mean is taken of finished pictures, in linear light and with premultiplied alpha: after the tone curve, as the mean of a
 //! picture that is drawn larger by far would be. The places fill a pixel evenly, so that both come to the same.
 
-use super::frame::Shown;
 use super::readback::{self, Sum};
-use super::{Channel, Renderer, View};
+use super::{Channel, Renderer, Shown, View};
 use crate::scene::Image;
 use crate::{Error, Result, Stage};
 

@@ -16,13 +16,13 @@ use crate::{Gpu, Result};
 /// Levels of a map; the last one is that of roughness 1. `LEVELS` of wgsl/pass/environment.wgsl.
 pub(crate) const LEVELS: u32 = 6;
 /// Texels along a side of its cube; the shader states the same.
-const SIDE: u32 = 128;
+pub(super) const SIDE: u32 = 128;
 /// Widest picture that is kept; wider ones are halved.
 const MAX_WIDTH: u32 = 2048;
 /// Environments that stay on the GPU.
 const KEPT: usize = 4;
 /// Entries along a side of the table of the split sum; `SPLIT_SUM_SIDE` of wgsl/lib/split_sum.wgsl.
-const SPLIT_SUM_SIDE: usize = 32;
+pub(super) const SPLIT_SUM_SIDE: usize = 32;
 
 /// What a stage's environment is on the GPU.
 #[derive(Clone, Debug)]

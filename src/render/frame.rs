@@ -3,32 +3,28 @@
 use wgpu::BindingResource;
 
 use super::blended::BlendedList;
+use super::canvas::Canvas;
 use super::character::Shown as Drawables;
 use super::draw_list::Actors;
 use super::environment::{EnvironmentMap, Environments};
+use super::finish::Finish;
+use super::layers::Layers;
 use super::layout::Filled;
 use super::numbers::put_view;
 use super::pass::background::BackgroundInputs;
 use super::pass::bangs_shadow::{self, BangsShadowInputs};
-use super::pass::bloom::{BloomChain, BloomInputs, BloomPass};
-use super::pass::floor::FloorPass;
-use super::pass::glow::{self, GlowInputs};
 use super::pass::ground::GroundInputs;
-use super::pass::post::{PostInputs, PostPass};
 use super::pass::prepass::{self, PrepassInputs};
-use super::pass::resolve::ResolvePass;
 use super::pass::shadow::{self, ShadowInputs};
 use super::pass::velocity::{self, VelocityInputs};
-use super::pass::weighted::{self, WeightedTargets};
-use super::pass::{HDR_FORMAT, Picture, Sight, eyes_through, fluff, opaque, outline, transparent};
+use super::pass::{eyes_through, fluff, opaque, outline, transparent};
+use super::take::{Shown, Take};
 use super::targets::{self, ColorTargets, PrepassTargets};
 use super::temporal::{Following, Temporal};
 use super::uploads::Uploads;
-use super::{
-    Background, Channel, Clock, FRAME_TIMEOUT, Layouts, Output, Renderer, Target, Timed, View, bind, readback,
-};
+use super::{Background, Channel, Clock, FRAME_TIMEOUT, Layouts, Renderer, Timed, View, bind, readback};
 use crate::color::Srgb;
-use crate::scene::{Antialias, Image, Post, ToneCurve};
+use crate::scene::{Antialias, Image, Post};
 use crate::stage::bodies::Bodies;
 use crate::{Error, Gpu, Result, Stage};
 
@@ -44,83 +40,17 @@ pub(super) struct Frame {
     environment: EnvironmentMap,
     /// Group 0 without what a prepass draws.
     group: wgpu::BindGroup,
+    /// Stands for what a prepass draws where none does.
+    no_prepass: PrepassTargets,
     // What few pictures need is made when one does.
-    bloom: Option<BloomPass>,
-    post: Option<PostPass>,
-    temporal: Option<Temporal>,
     color_targets: Option<ColorTargets>,
-    weighted: Option<Weighted>,
-    post_targets: Option<PostTargets>,
     /// With the group 0 that reads them.
     prepass_targets: Option<(PrepassTargets, wgpu::BindGroup)>,
+    layers: Option<Layers>,
+    temporal: Option<Temporal>,
+    finish: Finish,
     /// Of pictures that are read back.
     pub picture: Option<wgpu::Texture>,
-}
-
-/// What a frame shows.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Shown<'a> {
-    /// The finished picture, one of those that follow each other in a window.
-    Picture,
-    /// The finished picture by itself.
-    Still,
-    /// One of many finished pictures of which the mean is taken.
-    Sample,
-    /// A debug channel of shading.
-    Channel(&'a str),
-    /// The floor of benches.
-    Floor(&'a FloorPass),
-}
-
-/// A view that is drawn.
-pub(super) struct Take<'a> {
-    view: &'a View,
-    target: &'a Target<'a>,
-    shown: Shown<'a>,
-    /// It is finished by [`Frame::encode_post`].
-    post: Option<Post>,
-    picture: Picture<'a>,
-}
-
-impl<'a> Take<'a> {
-    pub fn new(r: &Renderer, stage: &Stage, view: &'a View, target: &'a Target<'a>, shown: Shown<'a>) -> Self {
-        let post = shown.post(stage, target, r.output);
-        let picture = Picture::new(r.gpu(), r.output, shown.sight(stage, post));
-        Self { view, target, shown, post, picture }
-    }
-}
-
-impl<'a> Shown<'a> {
-    /// What its shaders are made for.
-    fn sight(self, stage: &Stage, post: Option<Post>) -> Sight<'a> {
-        let channel = match self {
-            Self::Channel(channel) => Some(channel),
-            _ => None,
-        };
-        Sight { channel, punctual: !stage.lights.punctual.is_empty(), hdr: post.is_some() }
-    }
-
-    /// What is done to the whole of it: what is laid over something goes the same way.
-    fn post(self, stage: &Stage, target: &Target<'_>, output: Output) -> Option<Post> {
-        let post = stage.post.filter(|_| self.is_finished());
-        let post = post.map(|p| Post { antialias: self.antialias(p.antialias), ..p });
-        let plain = Post { bloom: None, exposure_ev: 0.0, tone: ToneCurve::None, antialias: Antialias::None };
-        post.or_else(|| target.is_laid_over(output).then_some(plain))
-    }
-
-    /// Whether it is a picture as a whole.
-    fn is_finished(self) -> bool {
-        matches!(self, Self::Picture | Self::Still | Self::Sample)
-    }
-
-    /// How edges are smoothed, where the stage asks for this.
-    fn antialias(self, asked: Antialias) -> Antialias {
-        match (self, asked) {
-            // What is by itself follows nothing.
-            (Self::Sample, _) | (Self::Still, Antialias::Temporal) => Antialias::None,
-            _ => asked,
-        }
-    }
 }
 
 impl Frame {
@@ -129,22 +59,21 @@ impl Frame {
         let uniform = bind::buffer(gpu, "frame", numbers.size(), usage);
         let environments = Environments::new(gpu);
         let environment = environments.none();
-        let shared = (&uniform, &environments, &environment);
+        let no_prepass = PrepassTargets::new(gpu, [1, 1], false);
         Self {
             uploads: Uploads::new(gpu),
             blended: BlendedList::new(gpu),
-            group: frame_group(gpu, layouts, shared, &PrepassTargets::new(gpu, [1, 1], false)),
+            group: frame_group(gpu, layouts, (&uniform, &environments, &environment), &no_prepass),
             environments,
             environment,
             numbers,
             uniform,
-            bloom: None,
-            post: None,
-            temporal: None,
+            no_prepass,
             color_targets: None,
-            weighted: None,
-            post_targets: None,
             prepass_targets: None,
+            layers: None,
+            temporal: None,
+            finish: Finish::default(),
             picture: None,
         }
     }
@@ -196,7 +125,9 @@ impl Frame {
         // How far surfaces have moved, where a picture follows another.
         self.encode_velocity(r, encoder, stage, take)?;
         // Light that blooms, and how far it spreads.
-        self.encode_glow(r, encoder, stage, take, clock)?;
+        if let Some(actors) = self.color_actors(stage, take) {
+            self.finish.encode_glow(r, encoder, take, actors, clock)?;
+        }
         // One colour pass: opaque, outlines and transparent share their targets, so samples are resolved once.
         let has_weighted = has_weighted(stage, take);
         let mut pass = self.begin_color_pass(r, encoder, take, has_weighted, clock);
@@ -204,10 +135,11 @@ impl Frame {
         drop(pass);
         // Layers that need no order, over all of it.
         if has_weighted {
-            self.encode_weighted(r, encoder, stage, take, &pipelines);
+            self.encode_layers(encoder, stage, take, &pipelines);
         }
         // With what was seen before; bloom, tone curve, background, smooth edges.
-        self.encode_post(r, encoder, take, following.as_ref(), clock);
+        let following = following.as_ref().zip(self.temporal.as_mut());
+        self.finish.encode(r, &mut self.uploads, encoder, take, following, clock);
         Ok(())
     }
 
@@ -299,14 +231,14 @@ impl Frame {
             self.blended.send(&gpu, &mut self.uploads, encoder);
         }
         match post {
-            Some(post) => self.fit_post(r, view.size, *post, target)?,
+            Some(post) => self.finish.fit(r, view.size, *post, target)?,
             None if self.color_targets.as_ref().is_none_or(|t| t.size != view.size) => {
                 self.color_targets = Some(ColorTargets::new(&gpu, view.size, r.output));
             }
             None => {}
         }
         if has_weighted(stage, take) {
-            Weighted::fit(&mut self.weighted, r, view.size, picture.output)?;
+            Layers::fit(&mut self.layers, r, view.size, picture.output)?;
         }
         let has_surfaces = has_surfaces(stage);
         let fits = |t: &PrepassTargets| t.size == view.size && (t.has_surfaces || !has_surfaces);
@@ -358,7 +290,7 @@ impl Frame {
         if map.cube != self.environment.cube {
             self.environment = map;
             let gpu = r.gpu();
-            self.group = frame_group(gpu, &r.layouts, self.shared(), &PrepassTargets::new(gpu, [1, 1], false));
+            self.group = frame_group(gpu, &r.layouts, self.shared(), &self.no_prepass);
             if let Some((targets, _)) = self.prepass_targets.take() {
                 let group = frame_group(gpu, &r.layouts, self.shared(), &targets);
                 self.prepass_targets = Some((targets, group));
@@ -438,27 +370,6 @@ impl Frame {
         Ok(())
     }
 
-    fn encode_glow(
-        &self,
-        r: &Renderer,
-        encoder: &mut wgpu::CommandEncoder,
-        stage: &Stage,
-        take: &Take<'_>,
-        clock: &Clock,
-    ) -> Result<()> {
-        let Take { view, post, .. } = *take;
-        let targets = self.post_targets.as_ref().filter(|_| post.is_some());
-        if let (Some(PostTargets { light: Some((light, chain)), .. }), Some(bloom)) = (targets, &self.bloom)
-            && let Some(actors) = actors(stage, self.color_frame_group(stage, post), view.first_person)
-        {
-            let all = actors.bodies.troupes.iter().map(|t| t.data().glows(&r.variants)).collect::<Result<Vec<_>>>()?;
-            let drawn = &|troupe: usize, draw: usize| all[troupe][draw].as_ref();
-            glow::encode(encoder, &GlowInputs { actors, drawn, light }, clock.render(Timed::Glow));
-            bloom.encode(encoder, &BloomInputs { chain });
-        }
-        Ok(())
-    }
-
     fn begin_color_pass<'a>(
         &self,
         r: &Renderer,
@@ -467,10 +378,8 @@ impl Frame {
         goes_on: bool,
         clock: &Clock,
     ) -> wgpu::RenderPass<'a> {
+        use wgpu::LoadOp;
         let Take { view, target, shown, post, .. } = *take;
-        use wgpu::{LoadOp, Operations, StoreOp};
-        let post = self.post_targets.as_ref().filter(|_| post.is_some());
-        let Into { color, multisampled, depth, keeps_depth } = self.into(take);
         let clear = match shown {
             // The background comes last.
             _ if post.is_some() => wgpu::Color::TRANSPARENT,
@@ -482,145 +391,54 @@ impl Frame {
         } else {
             LoadOp::Clear(clear)
         };
-        // Samples that are resolved need not be kept; what is a host's is, and what another pass goes on with.
-        let kept = |is_kept| {
-            if is_kept || goes_on {
-                StoreOp::Store
-            } else {
-                StoreOp::Discard
-            }
+        let canvas = self.canvas(take);
+        let color = canvas.color_attachment(load, goes_on);
+        let load = if canvas.keeps_depth {
+            LoadOp::Load
+        } else {
+            LoadOp::Clear(0.0)
         };
-        let store = kept(multisampled.is_none());
-        let depth = depth.map(|depth| {
-            let load = if keeps_depth { LoadOp::Load } else { LoadOp::Clear(0.0) };
-            depth_attachment(r, depth, load, kept(keeps_depth))
-        });
-        encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("colour"),
-            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                view: multisampled.unwrap_or(color),
-                depth_slice: None,
-                resolve_target: multisampled.filter(|_| !goes_on).map(|_| color),
-                ops: Operations { load, store },
-            })],
-            depth_stencil_attachment: depth,
-            timestamp_writes: clock.render(Timed::Color),
-            ..Default::default()
-        })
+        let depth = canvas.depth_attachment(load, goes_on);
+        targets::begin(encoder, "colour", Some(color), depth, clock.render(Timed::Color))
     }
 
     /// What the colour pass of a view draws into.
-    fn into<'a>(&'a self, take: &Take<'a>) -> Into<'a> {
-        let Take { target, post, .. } = *take;
-        let post = self.post_targets.as_ref().filter(|_| post.is_some());
-        let own = post.map_or(self.color_targets.as_ref(), |p| Some(&p.color));
+    fn canvas<'a>(&'a self, take: &Take<'a>) -> Canvas<'a> {
+        let target = take.target;
+        let apart = self.finish.targets(take);
+        let own = apart.map_or(self.color_targets.as_ref(), |a| Some(&a.color));
         // A host resolves its samples itself.
-        let resolves = target.depth.is_none() || post.is_some();
-        Into {
-            color: post.map_or(target.color, |p| &p.picture),
+        let resolves = target.depth.is_none() || apart.is_some();
+        Canvas {
+            color: apart.map_or(target.color, |a| &a.picture),
             multisampled: own.filter(|_| resolves).and_then(|t| t.multisampled.as_ref()),
             depth: target.depth.or_else(|| own.map(|t| &t.depth)),
             keeps_depth: target.depth.is_some(),
         }
     }
 
-    /// Sums weighted layers and lays them over the picture.
-    fn encode_weighted(
+    fn encode_layers(
         &self,
-        r: &Renderer,
         encoder: &mut wgpu::CommandEncoder,
         stage: &Stage,
         take: &Take<'_>,
         pipelines: &[Drawables],
     ) {
-        use wgpu::{LoadOp, Operations, StoreOp};
-        let frame = self.color_frame_group(stage, take.post);
-        let (Some(actors), Some(weighted)) = (actors(stage, frame, take.view.first_person), &self.weighted) else {
-            return;
-        };
-        let Into { color, multisampled, depth, .. } = self.into(take);
-        let depth = depth.map(|depth| depth_attachment(r, depth, LoadOp::Load, StoreOp::Store));
-        let BlendedList { draws, list, instances } = &self.blended;
-        let actors = Actors { list, instances, ..actors };
-        weighted::encode(encoder, &weighted.targets, depth, &actors, pipelines, draws);
-        let store = if multisampled.is_some() {
-            StoreOp::Discard
-        } else {
-            StoreOp::Store
-        };
-        let over = wgpu::RenderPassColorAttachment {
-            view: multisampled.unwrap_or(color),
-            depth_slice: None,
-            resolve_target: multisampled.map(|_| color),
-            ops: Operations { load: LoadOp::Load, store },
-        };
-        let mut pass = targets::begin(encoder, "resolve", Some(over), None, None);
-        weighted.resolve.encode(&mut pass, &weighted.group);
+        if let (Some(actors), Some(layers)) = (self.color_actors(stage, take), &self.layers) {
+            let BlendedList { draws, list, instances } = &self.blended;
+            layers.encode(encoder, self.canvas(take), &Actors { list, instances, ..actors }, pipelines, draws);
+        }
+    }
+
+    /// What passes bind that draw the colour of a view.
+    fn color_actors<'a>(&'a self, stage: &'a Stage, take: &Take<'_>) -> Option<Actors<'a>> {
+        actors(stage, self.color_frame_group(stage, take.post), take.view.first_person)
     }
 
     /// Group 0 of the colour pass: with what the prepass drew where a material reads it.
     fn color_frame_group(&self, stage: &Stage, post: Option<Post>) -> &wgpu::BindGroup {
         let drawn = self.prepass_targets.as_ref().filter(|_| has_prepass(stage, post));
         drawn.map_or(&self.group, |(_, group)| group)
-    }
-
-    fn encode_post(
-        &mut self,
-        r: &Renderer,
-        encoder: &mut wgpu::CommandEncoder,
-        take: &Take<'_>,
-        following: Option<&Following>,
-        clock: &Clock,
-    ) {
-        let Take { view, target, post, .. } = *take;
-        let Self { uploads, post: pass, post_targets, temporal, .. } = self;
-        if let (Some(post), Some(targets), Some(pass)) = (post, post_targets, pass) {
-            let mean = following.zip(temporal.as_mut()).and_then(|(following, temporal)| {
-                let read = [&targets.picture, targets.spread()];
-                temporal.encode(r.gpu(), uploads, encoder, &following.step, pass, read)
-            });
-            // What is kept is behind it.
-            let background = if target.keeps_color {
-                Background::Transparent
-            } else {
-                view.background
-            };
-            let group = mean.as_ref().unwrap_or(&targets.group);
-            let inputs = PostInputs { post, background, group, target: target.color };
-            pass.encode(uploads, encoder, &inputs, clock.render(Timed::Post));
-        }
-    }
-
-    /// Makes what a picture that is finished by [`PostPass`] is drawn into, where there is none of this size and kind.
-    fn fit_post(&mut self, r: &Renderer, size: [u32; 2], post: Post, target: &Target<'_>) -> Result<()> {
-        let gpu = r.gpu().clone();
-        if self.post.is_none() {
-            self.post = Some(PostPass::new(&r.variants, r.output)?);
-        }
-        if post.bloom.is_some() && self.bloom.is_none() {
-            self.bloom = Some(BloomPass::new(&r.variants)?);
-        }
-        let Self { bloom, post: Some(pass), post_targets, .. } = self else { return Ok(()) };
-        pass.fit(&r.variants, post, target)?;
-        let levels = post.bloom.map(|b| b.levels(size[1]));
-        if post_targets.as_ref().is_some_and(|t| t.color.size == size && t.levels == levels) {
-            return Ok(());
-        }
-        let picture = targets::sampled(&gpu, "picture", size, HDR_FORMAT);
-        let light = levels.zip(bloom.as_ref()).map(|(levels, bloom)| {
-            let glow = glow::target(&gpu, size);
-            let chain = bloom.chain(&gpu, &glow, levels);
-            (glow, chain)
-        });
-        let spread = spread(&picture, light.as_ref());
-        *post_targets = Some(PostTargets {
-            color: ColorTargets::new(&gpu, size, Output { format: HDR_FORMAT, ..r.output }),
-            group: pass.group(&gpu, &picture, spread),
-            levels,
-            picture,
-            light,
-        });
-        Ok(())
     }
 
     /// Renders one of the prepass's channels as a picture.
@@ -672,67 +490,6 @@ fn has_weighted(stage: &Stage, take: &Take<'_>) -> bool {
     !is_floor && stage.bodies.troupes.iter().any(|troupe| troupe.data().has_weighted)
 }
 
-/// Depth and stencil of passes of the picture. Whatever a host's stencil holds, marks begin with none.
-fn depth_attachment<'a>(
-    r: &Renderer,
-    view: &'a wgpu::TextureView,
-    load: wgpu::LoadOp<f32>,
-    store: wgpu::StoreOp,
-) -> wgpu::RenderPassDepthStencilAttachment<'a> {
-    let stencil = wgpu::Operations { load: wgpu::LoadOp::Clear(0), store: wgpu::StoreOp::Discard };
-    let has_stencil = r.output.depth_format(r.gpu()).has_stencil_aspect();
-    wgpu::RenderPassDepthStencilAttachment {
-        view,
-        depth_ops: Some(wgpu::Operations { load, store }),
-        stencil_ops: has_stencil.then_some(stencil),
-    }
-}
-
-/// What a colour pass draws into.
-struct Into<'a> {
-    color: &'a wgpu::TextureView,
-    /// Samples that are resolved into the colour.
-    multisampled: Option<&'a wgpu::TextureView>,
-    depth: Option<&'a wgpu::TextureView>,
-    /// Whether the depth is a host's.
-    keeps_depth: bool,
-}
-
-/// What weighted layers of a frame are drawn into, and how they get into the picture.
-#[derive(Debug)]
-struct Weighted {
-    targets: WeightedTargets,
-    resolve: ResolvePass,
-    group: wgpu::BindGroup,
-}
-
-impl Weighted {
-    /// Makes it where there is none of this size and format.
-    fn fit(made: &mut Option<Self>, r: &Renderer, size: [u32; 2], output: Output) -> Result<()> {
-        if made.as_ref().is_some_and(|w| w.targets.size == size && w.resolve.is_for(output.format)) {
-            return Ok(());
-        }
-        let resolve = match made.take() {
-            Some(known) if known.resolve.is_for(output.format) => known.resolve,
-            _ => ResolvePass::new(&r.variants, output)?,
-        };
-        let targets = WeightedTargets::new(r.gpu(), size, output.samples);
-        *made = Some(Self { group: resolve.group(r.gpu(), &targets), targets, resolve });
-        Ok(())
-    }
-}
-
-/// What a frame that is finished by [`PostPass`] is drawn into; settings that are numbers do not count.
-#[derive(Debug)]
-struct PostTargets {
-    color: ColorTargets,
-    picture: wgpu::TextureView,
-    /// Length of the chain below the light that blooms.
-    levels: Option<usize>,
-    light: Option<(wgpu::TextureView, BloomChain)>,
-    group: wgpu::BindGroup,
-}
-
 fn frame_group(
     gpu: &Gpu,
     layouts: &Layouts,
@@ -748,19 +505,4 @@ fn frame_group(
         environments.split_sum.as_entire_binding(),
     ];
     bind::group(gpu, "frame", &layouts.frame, resources)
-}
-
-impl PostTargets {
-    /// Light that blooms.
-    fn spread(&self) -> &wgpu::TextureView {
-        spread(&self.picture, self.light.as_ref())
-    }
-}
-
-/// Without bloom its strength is 0, and any picture will do.
-fn spread<'a>(
-    picture: &'a wgpu::TextureView,
-    light: Option<&'a (wgpu::TextureView, BloomChain)>,
-) -> &'a wgpu::TextureView {
-    light.map_or(picture, |(glow, _)| glow)
 }

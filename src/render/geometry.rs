@@ -1,6 +1,6 @@
 //! Scene to vertex streams: every primitive under every node in one list, sorted so that draws merge by material.
 
-use std::collections::HashMap;
+use std::{cell::LazyCell, collections::HashMap};
 
 use glam::{Mat4, Vec3};
 
@@ -11,7 +11,7 @@ use super::{
 };
 use crate::{
     hair::{self, HairStrips, NoStrips},
-    material::{AlphaMode, Blending},
+    material::{AlphaMode, Blending, Material},
     scene::{FirstPerson, HumanBone, Influences, MorphTarget, Primitive, Role, Scene, Skin},
 };
 
@@ -105,10 +105,8 @@ impl Geometry {
         let over_bone = || Some(geometry.rig.head?.1.inverse().w_axis.truncate() + Vec3::Y * 0.1);
         let middle = scene.face_box(None).map(|(low, high)| (low + high) * 0.5).or_else(over_bone);
         geometry.rig.head_middle = middle.unwrap_or_default();
-        let hair = hair_of(scene, middle);
         let mut skin_palettes: HashMap<usize, u32> = HashMap::new();
         let mut parts: Vec<(u32, usize, &Primitive, DeformGroup, Mat4)> = Vec::new();
-        let mut strips: Vec<Option<Arranged>> = Vec::new();
         let in_head = below_head(scene);
         for (node_index, mesh) in scene.mesh_nodes() {
             let node = &scene.nodes[node_index];
@@ -149,7 +147,6 @@ impl Geometry {
                     ..DeformGroup::default()
                 };
                 parts.push((parts.len() as u32, node_index, primitive, group, rest_matrix));
-                strips.push(hair(primitive, &mesh.name, rest_matrix));
             }
         }
         geometry.moved_by_joint = vec![None; geometry.joint_count];
@@ -160,15 +157,19 @@ impl Geometry {
         let mut materials_by_id = vec![0; parts.len()];
         for (id, node, primitive, group, rest_matrix) in &parts {
             let sight = sight(scene, &in_head, *node);
-            let hair = scene.materials.get(primitive.material).and_then(|m| m.hair.as_ref());
-            let head = geometry.rig.head.map(|_| geometry.rig.head_middle);
-            let strands = hair.map(|hair| hair::tangents(hair, primitive, *rest_matrix, head)).transpose();
+            let material = scene.materials.get(primitive.material);
+            // Found where something asks for them, once for all that do.
+            let strips = LazyCell::new(|| HairStrips::of(primitive, *rest_matrix, middle));
+            let strips = || strips.as_ref().map_err(|why| *why);
+            let hair = material.and_then(|m| m.hair.as_ref());
+            let strands = hair.map(|hair| hair::tangents(hair, primitive, strips)).transpose();
             let strands = strands.unwrap_or_else(|fault| {
                 geometry.faults.push((primitive.material, fault));
                 None
             });
-            let strips = strips[*id as usize].as_ref();
-            geometry.push(*id, primitive, (strands.as_deref(), strips), *group, *rest_matrix, &sight);
+            let mesh = scene.nodes[*node].mesh.map_or("", |mesh| &scene.meshes[mesh].name);
+            let arranged = material.and_then(|m| arranged(m, primitive, mesh, strips));
+            geometry.push(*id, primitive, (strands.as_deref(), arranged.as_ref()), *group, *rest_matrix, &sight);
             materials_by_id[*id as usize] = primitive.material;
         }
         let moved = geometry.moved_by_joint.iter();
@@ -347,44 +348,44 @@ struct Arranged {
     numbers: Vec<u32>,
 }
 
-/// Finds the strips of primitives whose material asks for them: a primitive, the name of its mesh, what takes it to the
-/// character.
-fn hair_of(scene: &Scene, head: Option<Vec3>) -> impl Fn(&Primitive, &str, Mat4) -> Option<Arranged> {
-    move |primitive, mesh, rest| {
-        let material = scene.materials.get(primitive.material)?;
-        let settings = material.strips?;
-        let found = HairStrips::of(primitive, rest, head)
-            .map_err(|why| {
-                let name = &material.name;
-                tracing::warn!(
-                    "material {name:?}, strips: a part of mesh {mesh:?} {why}; it is drawn as it is and without occlusion, \
-                     please give it a material of its own"
-                );
-            })
-            .ok();
-        let vertices = primitive.positions.len();
-        let Some(found) = found else {
+/// A primitive of a mesh as its strips, where its material asks for them.
+fn arranged<'a>(
+    material: &Material,
+    primitive: &Primitive,
+    mesh: &str,
+    strips: impl FnOnce() -> Result<&'a HairStrips, NoStrips>,
+) -> Option<Arranged> {
+    let settings = material.strips?;
+    let vertices = primitive.positions.len();
+    let found = match strips() {
+        Ok(found) => found,
+        Err(why) => {
+            let name = &material.name;
+            tracing::warn!(
+                "material {name:?}, strips: a part of mesh {mesh:?} {why}; it is drawn as it is and without occlusion, please \
+                 give it a material of its own"
+            );
             let (colors, numbers) = (vec![[255; 4]; vertices], vec![0; vertices]);
             return Some(Arranged { indices: primitive.indices.clone(), colors, numbers });
-        };
-        let order = found.order(settings.sort);
-        let mut turns = vec![0; found.count];
-        let last = found.count.saturating_sub(1).max(1);
-        order.iter().enumerate().for_each(|(turn, strip)| turns[*strip as usize] = (turn * 255 / last) as u32);
-        let mut numbers = vec![0; vertices];
-        for (triangle, strip) in primitive.indices.chunks_exact(3).zip(&found.of_triangles) {
-            triangle.iter().for_each(|v| numbers[*v as usize] = strip & 0xff | turns[*strip as usize] << 8);
         }
-        let place = |t: &f32| {
-            let [low, high] = ((t * 65535.0).round() as u16).to_le_bytes();
-            [high, low, 0, 0]
-        };
-        Some(Arranged {
-            indices: found.arranged(&primitive.indices, &order),
-            colors: found.along.iter().map(place).collect(),
-            numbers,
-        })
+    };
+    let order = found.order(settings.sort);
+    let mut turns = vec![0; found.count];
+    let last = found.count.saturating_sub(1).max(1);
+    order.iter().enumerate().for_each(|(turn, strip)| turns[*strip as usize] = (turn * 255 / last) as u32);
+    let mut numbers = vec![0; vertices];
+    for (triangle, strip) in primitive.indices.chunks_exact(3).zip(&found.of_triangles) {
+        triangle.iter().for_each(|v| numbers[*v as usize] = strip & 0xff | turns[*strip as usize] << 8);
     }
+    let place = |t: &f32| {
+        let [low, high] = ((t * 65535.0).round() as u16).to_le_bytes();
+        [high, low, 0, 0]
+    };
+    Some(Arranged {
+        indices: found.arranged(&primitive.indices, &order),
+        colors: found.along.iter().map(place).collect(),
+        numbers,
+    })
 }
 
 /// The sphere that weighted layers are weighed over: the head, or where there is none, what is weighted, half as large as the

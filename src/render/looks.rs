@@ -66,14 +66,16 @@ impl Looks {
         }
         let layers = |m: &Material| (m.blending(), m.has_core(), m.alpha.front_writes_depth, m.strips.map(|s| s.sort));
         let alpha = |m: &Material| (m.alpha.mode, m.alpha.hashed, m.alpha.write_depth, m.alpha.queue_offset);
-        let fixed = |m: &Material| (alpha(m), m.double_sided, layers(m), m.hair.map(|h| h.direction));
+        let fixed = |m: &Material| (alpha(m), m.double_sided, layers(m));
+        let runs = |m: &Material| m.hair.map(|hair| hair.direction);
         let mut other = material.clone();
         let sections: Vec<&str> = other.sections_mut().map(|section| section.about().key).collect();
         let composed = Composition::new(shaders, &self.surroundings(index, material));
-        let difference = match fixed(material) == fixed(source) {
-            true => self.compositions[index].difference(&composed, &sections),
-            false => Some("its alpha mode, draw order, sides or strands' direction are others".to_owned()),
-        };
+        let other = |differs: bool, what: &str| differs.then(|| format!("{what} others"));
+        let difference = self.compositions[index]
+            .difference(&composed, &sections)
+            .or_else(|| other(fixed(material) != fixed(source), "its alpha mode, draw order or sides are"))
+            .or_else(|| other(runs(material) != runs(source), "the directions of its hair are"));
         difference.map_or(Ok(()), |difference| {
             let message = format!(
                 "{difference} at the upload, and only numbers may change after that; please upload it with it, weakened to \

@@ -3,14 +3,17 @@
 mod accumulate;
 pub(crate) mod bind;
 mod blended;
+mod canvas;
 mod character;
 pub(crate) mod check_section;
 mod check_wgsl;
 mod clock;
 pub(crate) mod draw_list;
 pub(crate) mod environment;
+mod finish;
 mod frame;
 pub(crate) mod geometry;
+mod layers;
 pub(crate) mod layout;
 pub(crate) mod looks;
 pub(crate) mod made;
@@ -19,6 +22,7 @@ pub(crate) mod numbers;
 pub(crate) mod pass;
 pub(crate) mod readback;
 pub mod shaders;
+mod take;
 mod target;
 mod targets;
 mod temporal;
@@ -43,12 +47,12 @@ pub use view::{Background, Channel, View};
 
 pub(crate) use character::CharacterData;
 pub(crate) use clock::{Clock, Timed};
-pub(crate) use frame::Shown;
+pub(crate) use take::Shown;
 
 use crate::gpu::MAX_TEXTURE_SIDE;
 use crate::scene::Image;
 use crate::{Error, Gpu, Result, Stage};
-use frame::{Frame, Take};
+use frame::Frame;
 use made::lock;
 use numbers::frame_numbers;
 use pass::background::BackgroundPass;
@@ -58,6 +62,7 @@ use pass::floor::FloorPass;
 use pass::ground::GroundPass;
 use pass::{Picture, Sight};
 use shaders::Shaders;
+use take::Take;
 use upload::EmptyMaps;
 use variants::Variants;
 

@@ -9,9 +9,11 @@ use toml::{Table, Value};
 
 use super::Output;
 use super::draw_list::surface_requests;
+use super::environment::{LEVELS, SIDE, SPLIT_SUM_SIDE};
+use super::layout::Layout;
 use super::material::{Composition, bytes};
-use super::pass::{DEPTH_FORMAT, Mark, Picture, Sight, bangs_shadow, glow, prepass, shadow, velocity};
-use super::shaders::{Recipe, Shaders};
+use super::pass::{DEPTH_FORMAT, Mark, Picture, Sight, bangs_shadow, fibre, glow, prepass, shadow, velocity};
+use super::shaders::{Recipe, Shaders, file};
 use super::variants::Request;
 use crate::material::{About, Alpha, AlphaMode, Blending, Field, Kind, LISTED, Material, Shading, Surroundings};
 use crate::motion::Driven;
@@ -243,4 +245,27 @@ fn what_binds_more_than_a_device_promises_names_its_sections() {
     for word in ["Everything", "toon (2)", "face_paint (1)", "leave some"] {
         assert!(message.contains(word), "{message}");
     }
+}
+
+/// A number that a file of `wgsl/` names; files that import others are not WGSL for themselves.
+fn constant(module: &str, name: &str) -> u32 {
+    let start = format!("const {name}: ");
+    let line = file(module).lines().find_map(|line| line.strip_prefix(&start));
+    let value = line.and_then(|line| line.split_once(" = ")?.1.strip_suffix(';'));
+    let number = value.and_then(|value| value.trim_end_matches(".0").trim_end_matches('u').parse().ok());
+    number.unwrap_or_else(|| panic!("{module} has no number {name}: {line:?}"))
+}
+
+#[test]
+fn tables_are_as_large_in_shaders() {
+    assert_eq!(constant("pass/environment", "LEVELS"), LEVELS);
+    let texel = format!("6.0 * {SIDE}.0 * {SIDE}.0");
+    assert!(file("pass/environment").contains(&texel), "the solid angle of a texel is that of another side");
+
+    assert_eq!(constant("lib/split_sum", "SPLIT_SUM_SIDE") as usize, SPLIT_SUM_SIDE);
+    let entries = SPLIT_SUM_SIDE * SPLIT_SUM_SIDE;
+    assert_eq!(Layout::of(file("bind/frame"), "SplitSum").size, entries * size_of::<[f32; 2]>());
+
+    let [columns, ..] = fibre::SIZE;
+    assert_eq!(constant("lib/fibre", "TABLE_ANGLES") + 2, columns, "two columns of energies follow");
 }

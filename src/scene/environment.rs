@@ -1,6 +1,7 @@
 //! Light from all around: a picture of it, measured or made.
 
 use std::f32::consts::{PI, TAU};
+use std::fmt;
 use std::sync::{Arc, OnceLock};
 
 use glam::Vec3;
@@ -72,12 +73,19 @@ impl Environment {
 
 /// Radiance from all directions as an equirectangular picture, linear. Its middle is what a camera in front of the character
 /// sees behind it (-Z), its right is to the right of that picture (+X), its top is above.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Radiance {
     width: u32,
     height: u32,
     texels: Vec<[f32; 3]>,
     irradiance: OnceLock<[[f32; 3]; 9]>,
+}
+
+impl fmt::Debug for Radiance {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        // Its texels would fill screens.
+        f.debug_struct("Radiance").field("width", &self.width).field("height", &self.height).finish_non_exhaustive()
+    }
 }
 
 /// Greatest radiance that is kept: half floats end at 65504.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use hikage::material::{AlphaMode, Material, Outline, OutlineWidth, Sparkle, TextureRef};
+use hikage::material::{AlphaMode, Hair, Material, Outline, OutlineWidth, Sparkle, StrandDirection, TextureRef};
 use hikage::motion::Pose;
 use hikage::scene::{Camera, Framing, Node, PunctualLight, Scene, SpotCone, Transform};
 use hikage::{Actor, Background, Error, Gpu, Output, Renderer, Stage, View, color::LinearRgb, color::Srgb};
@@ -234,6 +234,31 @@ fn poses_places_and_lights_that_are_none_are_refused() {
     assert!(argument(renderer.shoot(&mut stage, &spotted)).contains("punctual light 0"));
     spotted.lights.punctual = vec![PunctualLight { spot: None, ..lamp }; 5];
     assert!(argument(renderer.shoot(&mut stage, &spotted)).contains("at most 4"));
+}
+
+/// The upload lays the direction of strands into vertices; their other numbers change as they like.
+#[test]
+fn strands_run_as_they_were_uploaded() {
+    let gpu = gpu();
+    let renderer = Renderer::new(&gpu).expect("a renderer");
+    let combed = Material { name: "Locks".to_owned(), hair: Some(Hair::default()), ..two_tone() };
+    let mut stage = staged(renderer.upload(&scene(vec![(sphere(0.5, 16, 32), combed)])));
+    let before = renderer.shoot(&mut stage, &view(64, 2.0)).expect("a picture");
+    for direction in [StrandDirection::UvU, StrandDirection::UvV, StrandDirection::Mesh] {
+        let material = stage.actors[0].edit(0).expect("a material");
+        material.hair = Some(Hair { direction, ..Hair::default() });
+        let refused = renderer.shoot(&mut stage, &view(64, 2.0));
+        assert!(refused.is_err(), "taken: {direction:?}");
+        let message = argument(refused);
+        for words in ["actors[0].", "materials[0] \"Locks\"", "strands' direction", "at the upload"] {
+            assert!(message.contains(words), "{message}");
+        }
+        stage.actors[0].materials.clear();
+    }
+    let fibre = &mut stage.actors[0].edit(0).expect("a material").hair.as_mut().expect("hair").fibre;
+    (fibre.eumelanin, fibre.pheomelanin) = (0.0, 0.0);
+    let white = renderer.shoot(&mut stage, &view(64, 2.0)).expect("a picture");
+    assert!(white.pixels != before.pixels, "its pigment changes nothing");
 }
 
 #[test]

@@ -369,3 +369,110 @@ fn antialiasing_goes_by_name_or_switch() {
         .contains("antialias = \"none\"")
     );
 }
+
+/// A Radiance file of flat texels: RGBE has 1 as 128 and an exponent of 129.
+fn hdr(width: u32, height: u32) -> Vec<u8> {
+    let header = format!("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {height} +X {width}\n").into_bytes();
+    [header, [128u8, 128, 128, 129].repeat((width * height) as usize)].concat()
+}
+
+#[test]
+fn light_from_all_around_goes_by_name_or_by_a_picture_beside_the_file() {
+    use hikage::scene::Environment;
+    let folder = folder("environment");
+    let file = folder.join("girl.look.toml");
+    std::fs::write(folder.join("noon.hdr"), hdr(4, 2)).expect("a picture");
+    let with = |text: &str| {
+        let mut scene = doll();
+        apply_at(&file, text, &mut scene).unwrap_or_else(|e| panic!("{text:?}: {e}"));
+        scene.lights.and_then(|l| l.environment)
+    };
+    // Not printed: a picture has very many texels.
+    for (text, expected) in [
+        ("base = \"plain\"", None),
+        ("[environment]", Some(Environment::studio())),
+        ("[environment]\nsource = \"studio\"", Some(Environment::studio())),
+        ("[environment]\nsource = \"sky\"\nstrength = 2", Some(Environment { strength: 2.0, ..Environment::sky() })),
+        ("base = \"natural\"\nenvironment = false", None),
+    ] {
+        assert!(with(text) == expected, "{text:?} gives another environment");
+    }
+    let noon = with("[environment]\nsource = \"noon.hdr\"\nturn_deg = 90").expect("an environment");
+    assert_eq!((noon.radiance.size(), noon.radiance.texels()[0]), ([4, 2], [1.0; 3]));
+    assert_eq!((noon.turn_rad, noon.strength), (std::f32::consts::FRAC_PI_2, 1.0));
+    // That of the base look stays under lights of the file.
+    let natural = with("base = \"natural\"");
+    assert!(natural.is_some() && with("base = \"natural\"\n[light]\nintensity = 0.5") == natural);
+
+    std::fs::write(folder.join("text.hdr"), "PNG and so on").expect("a file");
+    std::fs::write(folder.join("cut.hdr"), &hdr(64, 32)[..200]).expect("a file");
+    std::fs::write(folder.join("square.hdr"), hdr(4, 4)).expect("a file");
+    for (section, words) in [
+        ("source = \"text.hdr\"", &["text.hdr", "Radiance file"][..]),
+        ("source = \"cut.hdr\"", &["cut.hdr", "cut off"]),
+        ("source = \"square.hdr\"", &["square.hdr", "twice as wide"]),
+        ("source = \"none.hdr\"", &["none.hdr"]),
+        ("source = \"stduio\"", &["environment.source", "stduio", "\"studio\"", ".hdr"]),
+        ("source = \"../noon.hdr\"", &["girl.look.toml", "environment.source", "leads out of the folder"]),
+        ("source = 3", &["girl.look.toml", "environment", "string"]),
+        ("sorce = \"sky\"", &["environment", "\"sorce\"", "\"source\""]),
+        ("strength = -1", &["environment.strength", "is -1", "0..1000"]),
+        ("turn_rad = nan", &["environment", "turn_rad", "not finite"]),
+    ] {
+        let message = apply_at(&file, &format!("[environment]\n{section}"), &mut doll()).expect_err(section);
+        for part in words {
+            assert!(message.contains(part), "{section:?}: {message:?} lacks {part:?}");
+        }
+        assert!(!message.contains('\n'), "{message}");
+    }
+}
+
+/// Physical surfaces take the place of toon ones, and what the file does not name is that of the base look.
+#[test]
+fn physical_surfaces_are_a_shading_of_a_material() {
+    use hikage::material::Standard;
+    let folder = folder("standard");
+    let file = folder.join("girl.look.toml");
+    write_png(folder.join("worn.png"), &grey(4, 2, 90)).expect("a picture");
+    let with = |text: &str| {
+        let mut scene = doll();
+        apply_at(&file, text, &mut scene).unwrap_or_else(|e| panic!("{text:?}: {e}"));
+        scene
+    };
+    let scene = with(
+        "base = \"plain\"\n[material.Dress]\nshading = { standard = { metallic = 1, roughness = 0.25, map = \"worn.png\" } }",
+    );
+    let Shading::Standard(surface) = scene.materials[2].shading else { panic!("{:?}", scene.materials[2].shading) };
+    let map = surface.map.expect("a map");
+    assert_eq!(scene.images[scene.textures[map.texture].image].pixels[0], 90);
+    assert_eq!(surface, Standard { metallic: 1.0, roughness: 0.25, map: Some(map), ..Standard::default() });
+    assert!(matches!(scene.materials[0].shading, Shading::Toon(_)), "another material changed");
+    let of = |text: &str| with(text).materials[0].shading;
+    let Shading::Standard(skin) = of("base = \"natural\"") else { panic!("the natural look is physical") };
+    assert_ne!(skin.roughness, Standard::default().roughness);
+    assert_eq!(
+        of("base = \"natural\"\n[role.face.shading.standard]\nior = 1.4"),
+        Shading::Standard(Standard { ior: 1.4, ..skin })
+    );
+    assert_eq!(of("base = \"natural\"\n[role.face]\nshading = \"unlit\""), Shading::Unlit);
+    let toon = of("base = \"natural\"\n[role.face.shading.toon]\ntoony = 0.5");
+    assert!(matches!(toon, Shading::Toon(t) if t.toony == 0.5), "{toon:?}");
+
+    for (shading, words) in [
+        ("{ standard = { roughness = 2 } }", &["standard.roughness", "is 2", "0..1"][..]),
+        ("{ standard = { metallic = -0.5 } }", &["standard.metallic", "is -0.5", "0..1"]),
+        ("{ standard = { ior = 0.5 } }", &["standard.ior", "is 0.5", "1..3"]),
+        ("{ standard = { ior = inf } }", &["standard.ior", "not finite"]),
+        ("{ standard = { rougness = 0.5 } }", &["\"rougness\"", "\"roughness\""]),
+        ("{ standrad = { roughness = 0.5 } }", &["\"standrad\"", "\"standard\""]),
+        ("{ standard = { map = \"none.png\" } }", &["none.png"]),
+    ] {
+        let text = format!("base = \"plain\"\n[material.Dress]\nshading = {shading}");
+        let message = apply_at(&file, &text, &mut doll()).expect_err(shading);
+        for part in words {
+            assert!(message.contains(part), "{shading:?}: {message:?} lacks {part:?}");
+        }
+        assert!(message.contains("material.\"Dress\"") || message.contains("none.png"), "{message}");
+        assert!(!message.contains('\n'), "{message}");
+    }
+}

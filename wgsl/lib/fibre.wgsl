@@ -5,6 +5,10 @@
 
 const PI: f32 = 3.14159265;
 
+// Angles from 0 to pi of the table of azimuthal scattering, a column each; two of energies follow. Rows are inclinations, and
+// slices what a fibre lets through. wgsl/pass/fibre.wgsl makes it.
+const TABLE_ANGLES: u32 = 64u;
+
 // e^-x I0(x) by Abramowitz and Stegun 9.8.1 and 9.8.2 (relative error 4e-7).
 fn i0e(x: f32) -> f32 {
     let t = x / 3.75;
@@ -16,12 +20,8 @@ fn i0e(x: f32) -> f32 {
     return select(far * inverseSqrt(max(x, 1e-6)), near * exp(-x), x < 3.75);
 }
 
-// What longitudinal scattering of variance v is multiplied by: csch(1/v) / (2v) without its part e^(-1/v).
-fn fibre_scale(v: f32) -> f32 {
-    return 1.0 / (v * (1.0 - exp(-2.0 / v)));
-}
-
-// Longitudinal scattering M of variance v, whose `scale` is that of `fibre_scale`: the integral of M cos theta over theta is 1.
+// Longitudinal scattering M of variance v: the integral of M cos theta over theta is 1. `scale` is csch(1/v) / (2v) without its
+// part e^(-1/v), which is 1 / (v (1 - e^(-2/v))).
 // Half the squared distance of the two directions stands for 1 - cos of their sum, which keeps its digits for any v.
 fn fibre_longitudinal(v: f32, scale: f32, sin_i: f32, cos_i: f32, sin_o: f32, cos_o: f32) -> f32 {
     let across = cos_i - cos_o;
@@ -121,13 +121,20 @@ fn detected(x: f32, d: Detector) -> f32 {
     return trimmed_logistic(x, d.width);
 }
 
-// Azimuthal scattering of a whole fibre, 1/rad: R, TT, TRT, and the rest, which leaves everywhere alike. h = x (3 - x²) / 2
-// removes the square roots at its ends, so that evenly spread nodes do.
+// Offset h across the fibre of a node, and its weight; all weights add up to 1. This spread of even nodes removes the square
+// roots at both ends, and weighs the ends by 0 so smoothly that a sum is as good as one of far more.
+fn fibre_node(i: u32, nodes: u32) -> vec2f {
+    let x = (2.0 * f32(i) + 1.0) / f32(nodes) - 1.0;
+    let x2 = x * x;
+    return vec2f(x * (15.0 - x2 * (10.0 - 3.0 * x2)) / 8.0, 1.875 / f32(nodes) * (1.0 - x2) * (1.0 - x2));
+}
+
+// Azimuthal scattering of a whole fibre, 1/rad: R, TT, TRT, and the rest, which leaves everywhere alike.
 fn fibre_azimuthal(phi: f32, sin_o: f32, cos_o: f32, eta: f32, absorption: f32, d: Detector, nodes: u32) -> vec4f {
     var sum = vec4f(0.0);
     for (var i = 0u; i < nodes; i++) {
-        let x = (2.0 * f32(i) + 1.0) / f32(nodes) - 1.0;
-        let c = fibre_crossing(sin_o, cos_o, x * (1.5 - 0.5 * x * x), eta);
+        let node = fibre_node(i, nodes);
+        let c = fibre_crossing(sin_o, cos_o, node.x, eta);
         let a = fibre_attenuation(c.fresnel, exp(-absorption * c.length));
         let n = vec4f(
             detected(phi - fibre_exit(0.0, c.gamma_i, c.gamma_t), d),
@@ -135,9 +142,9 @@ fn fibre_azimuthal(phi: f32, sin_o: f32, cos_o: f32, eta: f32, absorption: f32, 
             detected(phi - fibre_exit(2.0, c.gamma_i, c.gamma_t), d),
             1.0 / (2.0 * PI),
         );
-        sum += a * n * (1.0 - x * x);
+        sum += a * n * node.y;
     }
-    return sum * (1.5 / f32(nodes));
+    return sum;
 }
 
 // Absorption that gives much hair a colour (Chiang et al. 2016); `scale` is their polynomial in the azimuthal roughness.

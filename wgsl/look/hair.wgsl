@@ -38,6 +38,7 @@ struct Hair {
     fibre_tilt_trt: vec2f,
     fibre_color_scale: f32,
     fibre_of_base: f32,
+    fibre_variation: f32,
     fibre_absorption: vec3f,
     fibre_scatter: f32,
     fibre_density: f32,

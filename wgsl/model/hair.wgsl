@@ -6,13 +6,14 @@ import package::bind::lights::punctual_light;
 import package::bind::maps::shadow_thickness;
 import package::bind::shown::shown;
 import package::bind::surface::{Shaded, Surface};
+import package::bind::uv::texture_uv;
 import package::lib::bands::banded;
-import package::lib::fibre::{fibre_absorption, fibre_longitudinal, fibre_tilted};
+import package::lib::fibre::{TABLE_ANGLES, fibre_absorption, fibre_longitudinal, fibre_tilted};
 import package::lib::kajiya_kay::{shifted_strand, strand_specular, wrapped_lambert};
 import package::lib::light::luminance;
 import package::look::hair::{strand_direction, strand_shift};
 import package::look::strips::{grayness_of_strips, occlusion_of_strips};
-import package::material::{hair_table, hair_table_sampler, material};
+import package::material::{base_texture, base_texture_sampler, hair_table, hair_table_sampler, material};
 import package::model::standard::physical_light;
 import package::model::toon::toon_model;
 
@@ -33,13 +34,14 @@ struct Strand {
     energies: Energies,
 }
 
-// Shares by which the sum of two estimates, light that comes back from hair round about and light that hair throws on, has the
-// energy of path-traced hair of all colours (`cargo xtask compare-real hair`): each alone leaves out what the other has.
-const BACK: f32 = 0.9;
-const ON: f32 = 0.55;
-// Share of light from behind that what is seen of a body gets: of a layer as deep as one sees into it at most 1/e, less of deeper
-// ones.
-const FROM_BEHIND: f32 = 0.2;
+// What the pictures of a path tracer give (`cargo xtask compare-real hair`), for hair of all colours.
+// Light that reaches a strand through others finds it from more sides than straight light does.
+const ON: f32 = 1.25;
+// Strands of one layer do not hide each other, as grains at all depths would.
+const LAYERED: f32 = 1.2;
+// Share of light from behind that what is seen of a body gets: less than a layer as deep as one sees into it, which lets 1/e
+// through.
+const FROM_BEHIND: f32 = 0.12;
 
 // Light of one direction on it: its body, and its highlights.
 struct Lit {
@@ -62,7 +64,7 @@ fn strand_of(s: Surface) -> Strand {
         strand.color = mix(strand.color, vec3f(luminance(strand.color)), strand.gray);
     }
     @if(hair_fibre) {
-        strand.absorption = strand_absorption(strand);
+        strand.absorption = strand_absorption(s, strand);
         strand.energies = fibre_energies(inclination_row(dot(strand.direction, s.view)), strand.absorption);
     }
     @if(hair_fibre && cast_shadow) strand.crossed =
@@ -118,38 +120,45 @@ fn strand_lit_from_around(s: Surface, strand: Strand) -> Lit {
     return lit;
 }
 
-// Columns of the table of azimuthal scattering: angles from 0 to pi, then two of energies; rows of inclinations, and slices of
-// what a fibre lets through. wgsl/pass/fibre.wgsl makes it.
-const TABLE_ANGLES: f32 = 64.0;
-const TABLE_COLUMNS: f32 = 66.0;
-
 @if(hair_fibre)
 fn fibre_entry(column: f32, row: f32, absorption: f32) -> vec4f {
     let size = vec3f(textureDimensions(hair_table));
     let slice = (exp(-0.5 * absorption) * (size.z - 1.0) + 0.5) / size.z;
     return textureSampleLevel(
-        hair_table, hair_table_sampler, vec3f(column / TABLE_COLUMNS, (row * (size.y - 1.0) + 0.5) / size.y, slice), 0.0
+        hair_table, hair_table_sampler, vec3f(column / size.x, (row * (size.y - 1.0) + 0.5) / size.y, slice), 0.0
     );
 }
 
-// Row of an inclination by its sine, 0 to 1.
+// Row of an inclination by its sine, 0 to 1. Roots of the cosine lie close where much is reflected, and what depends on an
+// inclination is straight over its cosine where it is small.
 @if(hair_fibre)
 fn inclination_row(sin_o: f32) -> f32 {
-    return asin(min(abs(sin_o), 1.0)) / (0.5 * PI);
+    return 1.0 - sqrt(sqrt(max(1.0 - sin_o * sin_o, 0.0)));
+}
+
+// How much more a strand absorbs than the hair about it, by a texture of strands and by what it is four levels of mips above.
+@if(hair_varied)
+fn strand_variation(s: Surface) -> f32 {
+    let at = texture_uv(s.uv, material.base.texture_uv);
+    let about = luminance(textureSampleBias(base_texture, base_texture_sampler, at, 4.0).rgb);
+    let darker = (about + 0.02) / (luminance(s.texel.rgb) + 0.02);
+    // Colours go by the root of the absorption.
+    return pow(clamp(darker, 0.25, 4.0), 2.0 * material.hair.fibre_variation);
 }
 
 // Absorption of a strand, by its pigment or by its colour.
 @if(hair_fibre)
-fn strand_absorption(strand: Strand) -> vec3f {
+fn strand_absorption(s: Surface, strand: Strand) -> vec3f {
     let m = &material.hair;
     var sigma = m.fibre_absorption;
+    @if(hair_varied) sigma *= strand_variation(s);
     if m.fibre_of_base > 0.0 {
         sigma = mix(sigma, fibre_absorption(strand.color, m.fibre_color_scale), m.fibre_of_base);
     }
     return sigma * (1.0 - strand.gray);
 }
 
-// R, and what goes forwards, backwards and many times about, for each colour.
+// What goes backwards by R, and forwards, backwards and many times about by all, for each colour.
 struct Energies {
     reflected: f32,
     forwards: vec3f,
@@ -159,9 +168,9 @@ struct Energies {
 
 @if(hair_fibre)
 fn fibre_energies(row: f32, sigma: vec3f) -> Energies {
-    let r = fibre_entry(TABLE_ANGLES + 1.0, row, sigma.r);
-    let g = fibre_entry(TABLE_ANGLES + 1.0, row, sigma.g);
-    let b = fibre_entry(TABLE_ANGLES + 1.0, row, sigma.b);
+    let r = fibre_entry(f32(TABLE_ANGLES) + 1.0, row, sigma.r);
+    let g = fibre_entry(f32(TABLE_ANGLES) + 1.0, row, sigma.g);
+    let b = fibre_entry(f32(TABLE_ANGLES) + 1.0, row, sigma.b);
     return Energies(r.x, vec3f(r.y, g.y, b.y), vec3f(r.z, g.z, b.z), vec3f(r.w, g.w, b.w));
 }
 
@@ -170,7 +179,7 @@ fn fibre_energies(row: f32, sigma: vec3f) -> Energies {
 @if(hair_fibre)
 fn body_share(forwards: vec3f, n_dot_l: f32, n_dot_v: f32, packing: f32) -> vec3f {
     let before = wrapped_lambert(n_dot_l, material.hair.wrap);
-    let kept = before / max(before + n_dot_v * (1.0 - forwards), vec3f(1e-3));
+    let kept = min(LAYERED * before / max(before + n_dot_v * (1.0 - forwards), vec3f(1e-3)), vec3f(1.0));
     let behind = 1.0 - smoothstep(-0.6, 0.2, n_dot_l);
     return mix(vec3f(1.0), mix(kept, vec3f(FROM_BEHIND), behind), packing);
 }
@@ -185,7 +194,7 @@ fn strand_lit(s: Surface, strand: Strand, to_light: vec3f, share: f32) -> Lit {
     let cos_o = sqrt(max(1.0 - sin_o * sin_o, 1e-6));
     let cos_i = sqrt(max(1.0 - sin_i * sin_i, 1e-6));
     let cos_phi = clamp((dot(s.view, to_light) - sin_o * sin_i) / (cos_o * cos_i), -1.0, 1.0);
-    let column = 0.5 + acos(cos_phi) / PI * (TABLE_ANGLES - 1.0);
+    let column = 0.5 + acos(cos_phi) / PI * f32(TABLE_ANGLES - 1u);
     let row = inclination_row(sin_o);
     let sigma = strand.absorption;
     let v = m.fibre_variances;
@@ -211,19 +220,22 @@ fn strand_lit(s: Surface, strand: Strand, to_light: vec3f, share: f32) -> Lit {
     // surface that they lie on.
     let n_dot_l = dot(s.normal, to_light);
     let n_dot_v = wrapped_lambert(dot(s.normal, s.view), m.wrap);
-    let straight = body_share(vec3f(0.0), n_dot_l, n_dot_v, m.fibre_packing).x * exp(-strand.crossed) * share;
+    let open = exp(-strand.crossed) * share;
+    let straight = body_share(vec3f(0.0), n_dot_l, n_dot_v, m.fibre_packing).x * open;
     let with_scattered = body_share(e.forwards, n_dot_l, n_dot_v, m.fibre_packing)
         * exp(-strand.crossed * (1.0 - e.forwards)) * share;
-    let scattered = max(with_scattered - straight, vec3f(0.0));
-    let back = e.around * ((1.0 + cos_phi) / (2.0 * PI) * along.w * m.fibre_scatter);
-    let on_all_sides = (e.forwards + e.backwards) * (along.w / (2.0 * PI) * m.fibre_scatter);
+    let arriving = straight + ON * m.fibre_scatter * max(with_scattered - straight, vec3f(0.0));
+    // What has gone about among strands comes from all depths: a soft surface's share of the light. A single layer has but half
+    // of them, those beside it.
+    let among = mix(0.5, wrapped_lambert(n_dot_l, m.wrap), m.fibre_packing) * open * m.fibre_scatter;
+    let about = e.around * ((1.0 + cos_phi) / (2.0 * PI) * along.w * among);
     // A light of strength 1 is an irradiance of pi.
     let occluded = PI * strand.occlusion;
     var lit: Lit;
-    lit.highlights = (reflected + inner) * straight * occluded;
-    lit.body = (through * straight + BACK * back * straight + ON * on_all_sides * scattered) * occluded;
-    @if(channel_hair_primary) shown += reflected * straight * occluded;
-    @if(channel_hair_secondary) shown += inner * straight * occluded;
+    lit.highlights = (reflected + inner) * arriving * occluded;
+    lit.body = (through * arriving + about) * occluded;
+    @if(channel_hair_primary) shown += reflected * arriving * occluded;
+    @if(channel_hair_secondary) shown += inner * arriving * occluded;
     return lit;
 }
 
@@ -235,7 +247,10 @@ fn strand_lit_from_around(s: Surface, strand: Strand) -> Lit {
     var lit: Lit;
     // R spreads as a rough mirror does.
     let roughness = saturate(sqrt(2.0 * sqrt(m.fibre_variances.x)));
-    lit.highlights = environment_radiance(strand_mirrored(s, t), roughness) * (e.reflected * strand.occlusion);
+    let mirrored = strand_mirrored(s, t);
+    let n_dot_v = wrapped_lambert(dot(s.normal, s.view), m.wrap);
+    let open = body_share(vec3f(0.0), dot(s.normal, mirrored), n_dot_v, m.fibre_packing).x * strand.occlusion;
+    lit.highlights = environment_radiance(mirrored, roughness) * (e.reflected * open);
     lit.body = environment_irradiance(s.normal)
         * ((max(e.backwards - e.reflected, vec3f(0.0)) + e.around * m.fibre_scatter) * strand.occlusion);
     return lit;

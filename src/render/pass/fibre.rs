@@ -7,7 +7,7 @@ use crate::render::variants::Variants;
 use crate::{Gpu, Result};
 
 /// Angles about the fibre with two columns of energies, inclinations, and shares that one pass lets through.
-const SIZE: [u32; 3] = [66, 24, 40];
+pub(crate) const SIZE: [u32; 3] = [66, 24, 40];
 
 /// What a table is made for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,7 +33,7 @@ pub(crate) fn table(variants: &Variants, inputs: FibreInputs) -> Result<wgpu::Te
     });
     let view = texture(gpu);
     // Nodes across the fibre lie closer than the detector is wide.
-    let nodes = (16.0 / inputs.width).ceil().clamp(64.0, 512.0) as u32;
+    let nodes = (8.0 / inputs.width).ceil().clamp(48.0, 512.0) as u32;
     let words = [inputs.width.to_bits(), inputs.ior.to_bits(), u32::from(inputs.is_gaussian), nodes];
     let numbers = bind::filled(gpu, "fibre", bytemuck::bytes_of(&words), wgpu::BufferUsages::UNIFORM);
     let layout = pipeline.get_bind_group_layout(0);

@@ -76,8 +76,8 @@ fn longitudinal_scattering_follows_its_vectors() {
     let list = cases(&file, "cases");
     let rows = rows(list, |c| directions(c, &["theta_i", "theta_r"]), &["v"]);
     let body = "
-        output[out] =
-            fibre_longitudinal(input[base + 4u], fibre_scale(input[base + 4u]), input[base], input[base + 1u], input[base + 2u], input[base + 3u]);";
+        let v = input[base + 4u]; let scale = 1.0 / (v * (1.0 - exp(-2.0 / v)));
+        output[out] = fibre_longitudinal(v, scale, input[base], input[base + 1u], input[base + 2u], input[base + 3u]);";
     let found = run(&["fibre"], body, &rows, 1);
     for (i, (case, found)) in list.iter().zip(&found).enumerate() {
         let expected = numbers(case, &["M"])[0];
@@ -98,10 +98,11 @@ fn longitudinal_scattering_conserves_energy() {
     }
     let body = "
         var sum = 0.0;
+        let v = input[base]; let scale = 1.0 / (v * (1.0 - exp(-2.0 / v)));
         for (var k = 0; k < 8192; k++) {
             // Even steps of the sine: the cosine of the measure is in them.
             let o = (f32(k) + 0.5) / 4096.0 - 1.0;
-            sum += fibre_longitudinal(input[base], fibre_scale(input[base]), input[base + 1u], input[base + 2u], o, sqrt(1.0 - o * o));
+            sum += fibre_longitudinal(v, scale, input[base + 1u], input[base + 2u], o, sqrt(1.0 - o * o));
         }
         output[out] = sum / 4096.0;";
     for (row, found) in rows.iter().zip(run(&["fibre"], body, &rows, 1)) {
@@ -206,13 +207,14 @@ fn the_whole_fibre_follows_its_vectors() {
         let o = vec2f(input[base + 2u], input[base + 3u]); let i = vec2f(input[base + 4u], input[base + 5u]);
         let c = fibre_crossing(o.x, o.y, input[base + 13u], input[base + 14u]);
         let variances = vec4f(v, 0.25 * v, 4.0 * v, 4.0 * v);
+        let scales = 1.0 / (variances * (1.0 - exp(-2.0 / variances)));
         var m = vec4f(0.0);
         for (var p = 0u; p < 3u; p++) {
             let to = fibre_tilted(o.x, o.y, vec2f(input[base + 6u + 2u * p], input[base + 7u + 2u * p]));
-            m[p] = fibre_longitudinal(variances[p], fibre_scale(variances[p]), i.x, i.y, to.x, to.y)
+            m[p] = fibre_longitudinal(variances[p], scales[p], i.x, i.y, to.x, to.y)
                 * trimmed_logistic(input[base + 12u] - fibre_exit(f32(p), c.gamma_i, c.gamma_t), s);
         }
-        m.w = fibre_longitudinal(variances.w, fibre_scale(variances.w), i.x, i.y, o.x, o.y) / (2.0 * PI);
+        m.w = fibre_longitudinal(variances.w, scales.w, i.x, i.y, o.x, o.y) / (2.0 * PI);
         for (var k = 0u; k < 3u; k++) {
             output[out + k] = dot(m, fibre_attenuation(c.fresnel, exp(-input[base + 15u + k] * c.length)));
         }";
@@ -247,12 +249,13 @@ fn a_white_fibre_in_a_furnace_vanishes() {
         // Of two degrees.
         let tilts = array(vec2f(-0.06976, 0.99756), vec2f(0.0349, 0.99939), vec2f(0.13917, 0.99027), vec2f(0.0, 1.0));
         let variances = vec4f(v, 0.25 * v, 4.0 * v, 4.0 * v);
+        let scales = 1.0 / (variances * (1.0 - exp(-2.0 / variances)));
         var along = vec4f(0.0);
         for (var k = 0; k < 2048; k++) {
             let i = (f32(k) + 0.5) / 1024.0 - 1.0;
             for (var p = 0; p < 4; p++) {
                 let to = fibre_tilted(o.x, o.y, tilts[p]);
-                along[p] += fibre_longitudinal(variances[p], fibre_scale(variances[p]), i, sqrt(1.0 - i * i), to.x, to.y) / 1024.0;
+                along[p] += fibre_longitudinal(variances[p], scales[p], i, sqrt(1.0 - i * i), to.x, to.y) / 1024.0;
             }
         }
         var about = vec4f(0.0);

@@ -13,6 +13,7 @@ mod inspect;
 mod look;
 mod looks;
 mod output;
+mod reference;
 mod render;
 mod sdf;
 #[cfg(target_os = "linux")]

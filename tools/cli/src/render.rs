@@ -314,7 +314,7 @@ fn seen(args: &Args, shot: &Shot, stage: &mut Stage) -> Result<View, Failure> {
         view.background = background;
     }
     if view.background == Background::Environment && stage.lights.environment.is_none() {
-        return Err(Failure::input("--background environment: there is no environment; add --environment studio"));
+        return Err(Failure::input("the background is the environment, and there is none; add --environment studio"));
     }
     view.channel = args.channel;
     if let Some(ground) = &mut stage.ground {

@@ -63,7 +63,9 @@ pub(super) fn shot(dir: &Path, of: &Reference) -> Result<Shot, String> {
     let scale = if let Some(cards) = cards {
         let mut scene = hikage::import::load(cards).map_err(|e| e.to_string())?;
         for material in &mut scene.materials {
-            material.hair = Some(Hair { fibre: model, wrap: 1.0, ..Hair::default() });
+            // The strands of these references run along the texture of the cards.
+            let direction = StrandDirection::UvV;
+            material.hair = Some(Hair { fibre: model, direction, ..Hair::default() });
             material.normal_map = None;
             material.alpha = Alpha { mode: AlphaMode::Blend, blending: Blending::ThreePass, ..material.alpha };
             material.cast_shadow = Some(CastShadow::default());

@@ -11,16 +11,16 @@ use std::fs::File;
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 
-use glam::Vec3;
 use hikage::color::LinearRgb;
 use hikage::picture::read_linear;
-use hikage::scene::{Ambient, Camera, DirectionalLight, Lights, Scene};
+use hikage::scene::{Ambient, Lights, Scene};
 use hikage::{Actor, Background, Gpu, Output, Renderer, Stage, View, wgpu};
 use npyz::WriterBuilder as _;
 use serde::{Deserialize, Serialize};
 
 use crate::failure::Failure;
 use crate::output::{make_folder, print, print_json};
+use crate::reference::{ReferenceCamera, ReferenceLight};
 use crate::setup;
 use crate::spinner::Spinner;
 
@@ -76,24 +76,6 @@ struct Reference {
 #[derive(Deserialize)]
 struct Bounces {
     max: u32,
-}
-
-#[derive(Deserialize)]
-#[serde(rename_all = "camelCase")]
-struct ReferenceCamera {
-    eye: [f32; 3],
-    target: [f32; 3],
-    up: [f32; 3],
-    fov_y_deg: f32,
-    near: f32,
-}
-
-#[derive(Deserialize)]
-#[serde(rename_all = "camelCase")]
-struct ReferenceLight {
-    dir_to_light: [f32; 3],
-    color_linear: [f32; 3],
-    unit_intensity: f32,
 }
 
 #[derive(Serialize)]
@@ -185,29 +167,10 @@ fn drawn(gpu: &Gpu, of: &Reference, scenes: Vec<Scene>, scale: u32) -> Result<Ve
         actors.push(Actor::new(&renderer.upload(&scene)?));
     }
     let mut stage = Stage::of(actors);
-    stage.lights = Lights {
-        directional: DirectionalLight {
-            to_light: Vec3::from(of.light.dir_to_light).normalize_or(Vec3::Z),
-            color: LinearRgb(of.light.color_linear),
-            intensity: of.light.unit_intensity,
-        },
-        ambient: Ambient::uniform(LinearRgb::BLACK),
-        ..Lights::default()
-    };
+    stage.lights =
+        Lights { directional: (&of.light).into(), ambient: Ambient::uniform(LinearRgb::BLACK), ..Lights::default() };
     let size = [of.width * scale, of.height * scale];
-    let view = View {
-        size,
-        camera: Camera {
-            eye: of.camera.eye.into(),
-            target: of.camera.target.into(),
-            up: of.camera.up.into(),
-            fov_y_rad: of.camera.fov_y_deg.to_radians(),
-            near: of.camera.near,
-            ..Camera::default()
-        },
-        background: Background::Transparent,
-        ..View::default()
-    };
+    let view = View { size, camera: (&of.camera).into(), background: Background::Transparent, ..View::default() };
     let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
         label: Some("picture"),
         size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },

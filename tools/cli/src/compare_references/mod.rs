@@ -13,12 +13,11 @@ use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use glam::Vec3;
 use hikage::color::{LinearRgb, Srgb};
 use hikage::golden::{Tolerance, compare, sheet};
 use hikage::material::{Material, Origin};
 use hikage::picture::{read_png, write_png};
-use hikage::scene::{Ambient, Camera, DirectionalLight, Image, Lights, Scene};
+use hikage::scene::{Ambient, Image, Lights, Scene};
 use hikage::{Actor, Background, Channel, Character, Gpu, Output, Renderer, Stage, View};
 use serde::{Deserialize, Serialize};
 
@@ -26,6 +25,7 @@ use self::figures::{BAND, Figures, OFF, band, differences, figures, part_ids};
 use self::known::Known;
 use crate::failure::Failure;
 use crate::output::{Table, make_folder, print, print_json};
+use crate::reference::{ReferenceCamera, ReferenceLight};
 use crate::spinner::Spinner;
 use crate::{args, setup};
 
@@ -63,24 +63,6 @@ struct Reference {
     ambient: ReferenceAmbient,
     background: String,
     expressions: Option<std::collections::BTreeMap<String, f32>>,
-}
-
-#[derive(Deserialize)]
-#[serde(rename_all = "camelCase")]
-struct ReferenceCamera {
-    eye: [f32; 3],
-    target: [f32; 3],
-    up: [f32; 3],
-    fov_y_deg: f32,
-    near: f32,
-}
-
-#[derive(Deserialize)]
-#[serde(rename_all = "camelCase")]
-struct ReferenceLight {
-    dir_to_light: [f32; 3],
-    color_linear: [f32; 3],
-    unit_intensity: f32,
 }
 
 #[derive(Deserialize)]
@@ -253,26 +235,15 @@ fn seen(reference: &Reference) -> Result<(View, Lights), String> {
         "transparent" => Background::Transparent,
         color => Background::Color(Srgb::from_hex(color).ok_or_else(|| format!("background {color:?}"))?),
     };
-    let scaled = |color: [f32; 3], factor: f32| LinearRgb(color).scaled(factor);
+    let ambient = &reference.ambient;
     let lights = Lights {
-        directional: DirectionalLight {
-            to_light: Vec3::from(reference.light.dir_to_light).normalize_or(Vec3::Z),
-            color: LinearRgb(reference.light.color_linear),
-            intensity: reference.light.unit_intensity,
-        },
-        ambient: Ambient::uniform(scaled(reference.ambient.color_linear, reference.ambient.unit_intensity)),
+        directional: (&reference.light).into(),
+        ambient: Ambient::uniform(LinearRgb(ambient.color_linear).scaled(ambient.unit_intensity)),
         ..Lights::default()
     };
     let view = View {
         size: [reference.width, reference.height],
-        camera: Camera {
-            eye: reference.camera.eye.into(),
-            target: reference.camera.target.into(),
-            up: reference.camera.up.into(),
-            fov_y_rad: reference.camera.fov_y_deg.to_radians(),
-            near: reference.camera.near,
-            matrices: None,
-        },
+        camera: (&reference.camera).into(),
         background,
         ..View::default()
     };

@@ -298,6 +298,42 @@ fn render_writes_the_picture_and_the_report_and_nothing_else() {
     assert_eq!(files(&dir), ["out.png", "report.json", "shot.json", "triangle.gltf"]);
 }
 
+/// What needs an environment says how to have one, and writes nothing without.
+#[test]
+fn an_environment_that_is_missing_is_status_1_and_one_is_offered() {
+    let dir = folder("environment");
+    fs::write(dir.join("bad.hdr"), b"no picture").expect("file");
+    fs::write(dir.join("shot.json"), r#"{"background": "environment"}"#).expect("shot");
+    let render = ["render", "triangle.gltf", "-o", "out.png", "--size", "32x32"];
+    for (options, named) in [
+        (&["--background", "environment"][..], "the background is the environment"),
+        (&["--background", "environment", "--environment", "none"], "the background is the environment"),
+        (&["--shot", "shot.json"], "environment"),
+        (&["--environment-turn", "30"], "--environment-turn"),
+    ] {
+        let error = fails(&dir, &[&render[..], options].concat(), 1);
+        assert!(error.contains(named) && error.contains("add --environment studio"), "{options:?}: {error}");
+    }
+    let error = fails(&dir, &[&render[..], &["--environment", "bad.hdr"]].concat(), 1);
+    assert!(error.contains("bad.hdr") && error.contains("Radiance file"), "{error}");
+    let error = fails(&dir, &[&render[..], &["--environment", "stduio"]].concat(), 2);
+    assert!(error.contains("--environment") && error.contains("studio, sky, none"), "{error}");
+    assert_eq!(files(&dir), ["bad.hdr", "shot.json", "triangle.gltf"]);
+
+    let draw = |options: &[&str]| {
+        succeeds(&dir, &[&render[..], options].concat());
+        hikage::picture::read_png(dir.join("out.png")).expect("PNG")
+    };
+    // A corner beside the triangle.
+    let behind = |picture: &hikage::scene::Image| picture.pixels[..4].to_vec();
+    let studio = draw(&["--background", "environment", "--environment", "studio"]);
+    assert!(behind(&studio) != [0x80, 0x80, 0x80, 0xff] && behind(&studio)[3] == 0xff, "{:?}", behind(&studio));
+    let sky = draw(&["--shot", "shot.json", "--environment", "sky"]);
+    assert_ne!(behind(&sky), behind(&studio));
+    let unseen = draw(&["--environment", "sky"]);
+    assert_eq!(behind(&unseen), [0x80, 0x80, 0x80, 0xff], "it is seen without being asked for");
+}
+
 #[test]
 fn a_sheet_shows_any_model_and_the_built_in_one_without_a_file() {
     let dir = folder("sheet");
