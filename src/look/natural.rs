@@ -82,7 +82,8 @@ fn eye(material: &mut Material) {
 
 /// The colour is that of the file; locks that are modelled as one shine as the combed strands that they stand for.
 fn hair(material: &mut Material) {
-    let fibre = FibreModel { of_base: 1.0, longitudinal: 0.2, azimuthal: 0.35, ..FibreModel::default() };
+    // 1.6: light that has been about often, and what the head throws back, which the measured hair on a black head is without.
+    let fibre = FibreModel { of_base: 1.0, longitudinal: 0.2, azimuthal: 0.35, scatter: 1.6, ..FibreModel::default() };
     material.hair = Some(Hair { fibre, highlight_color: [1.8; 3], ..Hair::default() });
     // Cards lie over each other, and what is denser than not hides what is behind.
     if material.alpha.mode == AlphaMode::Blend {

@@ -98,11 +98,11 @@ crate::section! {
         /// Dark brown.
         brown { fibre: FibreModel { eumelanin: 0.42, pheomelanin: 0.3, ..FibreModel::default() } }
         /// Golden blond.
-        blond { fibre: FibreModel { eumelanin: 0.0, pheomelanin: 0.2, ..FibreModel::default() } }
+        blond { fibre: FibreModel { eumelanin: 0.0, pheomelanin: 0.24, scatter: 1.6, ..FibreModel::default() } }
         /// Without any pigment.
-        white { fibre: FibreModel { eumelanin: 0.0, pheomelanin: 0.02, ..FibreModel::default() } }
+        white { fibre: FibreModel { eumelanin: 0.0, pheomelanin: 0.02, scatter: 1.6, ..FibreModel::default() } }
         /// Bleached and dyed in the colour of its texture.
-        dyed { fibre: FibreModel { eumelanin: 0.0, pheomelanin: 0.0, of_base: 1.0, ..FibreModel::default() } }
+        dyed { fibre: FibreModel { eumelanin: 0.0, pheomelanin: 0.0, of_base: 1.0, scatter: 1.6, ..FibreModel::default() } }
         /// Silk of a drawn heroine: toon shade with two banded highlights.
         anime_silk {
             model: HairModel::KajiyaKay, natural: 0.0, steps: 2, edge: 0.25,
@@ -149,13 +149,15 @@ crate::part! {
         eumelanin: f32 = 1.3, in 0.0..=20.0;
         /// Red-yellow pigment.
         pheomelanin: f32 = 0.2, in 0.0..=20.0;
-        /// Colour of dyed hair without pigment, linear; its absorption is added.
+        /// Colour of dyed hair without pigment, linear; its absorption is added (Chiang et al. 2016: that of much hair in light
+        /// from all around).
         dye: [f32; 3] = [1.0; 3], in 0.0..=1.0;
-        /// How far the base colour takes the place of all pigment.
+        /// How far the base colour takes the place of all pigment: a body of this hair has that share of the light that white
+        /// hair has.
         of_base: f32 = 0.0, in 0.0..=1.0;
         /// How far strands that are light and dark in the base texture have less and more pigment and dye than the hair about
         /// them: 1 as light and dark as there.
-        variation: f32 = 1.0, in 0.0..=4.0;
+        variation: f32 = 1.0, in 0.0..=1.0;
         /// Roughness along the fibre.
         longitudinal: f32 = 0.3, in 0.05..=1.0;
         /// Roughness round it.
@@ -221,13 +223,12 @@ impl Section for Hair {
         let of = &self.fibre;
         let tilt = |times: f32| [(times * of.tilt_rad).sin(), (times * of.tilt_rad).cos()];
         gpu.put("turn", [self.turn_rad.sin(), self.turn_rad.cos()]);
-        gpu.put("fibre_variances", of.variances());
+        gpu.put("fibre_sharp", of.variances().map(|v| 1.0 / v));
         gpu.put("fibre_scales", of.variances().map(|v| 1.0 / (v * (1.0 - (-2.0 / v).exp()))));
         gpu.put("fibre_tilt_r", tilt(-2.0));
         gpu.put("fibre_tilt_tt", tilt(1.0));
         gpu.put("fibre_tilt_trt", tilt(4.0));
         gpu.put("fibre_absorption", of.absorption());
-        gpu.put("fibre_color_scale", of.color_scale());
     }
 
     fn options(&self, on: &mut Options, of: &Surroundings<'_>) {
@@ -236,6 +237,7 @@ impl Section for Hair {
         on.set("hair_kajiya_kay", self.model == HairModel::KajiyaKay);
         on.set("hair_fibre", self.model == HairModel::Fibre);
         let is_varied = self.fibre.of_base < 1.0 && self.fibre.variation > 0.0 && of.material.base.texture.is_some();
+        on.set("hair_of_base", self.model == HairModel::Fibre && self.fibre.of_base > 0.0);
         on.set("hair_varied", self.model == HairModel::Fibre && is_varied);
         on.set("hair_blinn", self.kajiya_kay.direct[2].max(self.kajiya_kay.indirect[2]) > 0.0);
         on.set("hair_bands", self.steps > 0);

@@ -78,8 +78,13 @@ pub(crate) struct CharacterData {
 pub(crate) type Shown = Arc<[Pipelines<Drawn>]>;
 /// What draws the depth of each.
 pub(crate) type Depths = Arc<[Option<Drawn>]>;
-/// What a picture's shaders were made for: channel, point and spot lights, half floats.
-pub(crate) type Seen = (Option<String>, bool, bool);
+/// What a picture's shaders were made for: channel; point and spot lights, an environment, half floats.
+pub(crate) type Seen = (Option<String>, [bool; 3]);
+
+pub(crate) fn seen(sight: Sight<'_>) -> Seen {
+    let Sight { channel, punctual, environment, hdr } = sight;
+    (channel.map(str::to_owned), [punctual, environment, hdr])
+}
 
 /// Bytes that a [`Character`] takes on the GPU.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
@@ -180,8 +185,7 @@ impl CharacterData {
 
     /// What shows each draw of a picture, made when somebody first looks at its like.
     pub fn shown(&self, variants: &Variants, picture: &Picture<'_>) -> Result<Shown> {
-        let Sight { channel, punctual, hdr } = picture.sight;
-        let seen = (channel.map(str::to_owned), punctual, hdr);
+        let seen = seen(picture.sight);
         if let Some(shown) = lock(&self.shown).get(&seen) {
             return Ok(Arc::clone(shown));
         }

@@ -32,8 +32,8 @@ pub(crate) struct Looks {
     pub(super) numbers: wgpu::Buffer,
     pub(super) stride: u64,
     pub(super) textures: Vec<Vec<BoundTexture>>,
-    /// Flat, with layers, as a volume.
-    pub(super) white: [wgpu::TextureView; 3],
+    /// Flat, with layers.
+    pub(super) white: [wgpu::TextureView; 2],
     pub(super) default_sampler: wgpu::Sampler,
     pub(super) face_maps: Vec<FaceMap>,
     pub(super) metres_per_uv: Vec<[f32; 2]>,
@@ -118,7 +118,6 @@ impl Looks {
             }),
             BindingKind::Texture => view(name, 0),
             BindingKind::TextureArray => view(name, 1),
-            BindingKind::TextureVolume => view(name, 2),
             BindingKind::Sampler => wgpu::BindingResource::Sampler(
                 texture(name.trim_end_matches("_sampler")).map_or(&self.default_sampler, |t| &t.sampler),
             ),

@@ -32,9 +32,8 @@ pub(crate) enum Source {
 impl Source {
     fn shape(self) -> Shape {
         match self {
-            Self::Texture(_) => Shape::Flat,
+            Self::Texture(_) | Self::Generated(_) => Shape::Flat,
             Self::FaceMap(_) => Shape::Array,
-            Self::Generated(Generated::Fibre { .. }) => Shape::Volume,
         }
     }
 

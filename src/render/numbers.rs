@@ -67,7 +67,7 @@ pub(crate) fn put_view(gpu: &mut Block<'_>, view: &View, stage: &Stage, clip_bef
     gpu.put("irradiance", irradiance.map(|[r, g, b]| [r * strength, g * strength, b * strength, 0.0]));
     gpu.put("environment_turn", [turn_rad.cos(), turn_rad.sin()]);
     gpu.put("environment_strength", strength);
-    gpu.put("environment_level", environment.map_or(-1.0, |_| (LEVELS - 1) as f32));
+    gpu.put("environment_level", (LEVELS - 1) as f32);
 }
 
 /// Distance along a view of the nearest sphere of weighted layers; far away where there is none.

@@ -111,7 +111,6 @@ pub(crate) enum Shape {
     Flat,
     /// Layers.
     Array,
-    Volume,
 }
 
 /// What a shader is linked from.
@@ -182,7 +181,6 @@ pub(crate) enum BindingKind {
     Numbers,
     Texture,
     TextureArray,
-    TextureVolume,
     Sampler,
 }
 
@@ -318,7 +316,6 @@ impl Shaders {
             let ty = match shape {
                 Shape::Flat => "texture_2d<f32>",
                 Shape::Array => "texture_2d_array<f32>",
-                Shape::Volume => "texture_3d<f32>",
             };
             let _ = writeln!(page, "@group(2) @binding({index}) var {name}: {ty};");
             let _ = writeln!(page, "@group(2) @binding({}) var {name}_sampler: sampler;", index + 1);
@@ -485,7 +482,6 @@ fn bindings(module: &naga::Module) -> Vec<Binding> {
             let at = variable.binding.as_ref().filter(|b| b.group == 2)?;
             let kind = match module.types[variable.ty].inner {
                 naga::TypeInner::Image { arrayed: true, .. } => BindingKind::TextureArray,
-                naga::TypeInner::Image { dim: naga::ImageDimension::D3, .. } => BindingKind::TextureVolume,
                 naga::TypeInner::Image { .. } => BindingKind::Texture,
                 naga::TypeInner::Sampler { .. } => BindingKind::Sampler,
                 _ => BindingKind::Numbers,

@@ -46,7 +46,9 @@ impl<'a> Shown<'a> {
             Self::Channel(channel) => Some(channel),
             _ => None,
         };
-        Sight { channel, punctual: !stage.lights.punctual.is_empty(), hdr: post.is_some() }
+        let lights = &stage.lights;
+        let (punctual, environment) = (!lights.punctual.is_empty(), lights.environment.is_some());
+        Sight { channel, punctual, environment, hdr: post.is_some() }
     }
 
     /// What is done to the whole of it: what is laid over something goes the same way.

@@ -87,7 +87,7 @@ fn face_maps() -> Vec<FaceMap> {
 fn requests(shaders: &Shaders, material: &Material, colors: bool, channel: Option<&str>, samples: u32) -> Vec<Request> {
     let maps = face_maps();
     let of = Composition::new(shaders, &surroundings(material, &maps));
-    let sight = Sight { channel, punctual: samples == 4, hdr: false };
+    let sight = Sight { channel, punctual: samples == 4, environment: samples == 4, hdr: false };
     let picture = Picture { output: Output { samples, ..Output::default() }, depth_format: DEPTH_FORMAT, sight };
     let draw = super::draw_list::Draw {
         material: 0,
@@ -266,6 +266,6 @@ fn tables_are_as_large_in_shaders() {
     let entries = SPLIT_SUM_SIDE * SPLIT_SUM_SIDE;
     assert_eq!(Layout::of(file("bind/frame"), "SplitSum").size, entries * size_of::<[f32; 2]>());
 
-    let [columns, ..] = fibre::SIZE;
-    assert_eq!(constant("lib/fibre", "TABLE_ANGLES") + 2, columns, "two columns of energies follow");
+    let twice = constant("lib/fibre", "TABLE_ROWS") * 2;
+    assert_eq!([constant("lib/fibre", "TABLE_ANGLES") + 2, twice], fibre::SIZE, "two columns of energies follow");
 }

@@ -29,8 +29,6 @@ pub(crate) struct TextureSet {
     pub white: wgpu::TextureView,
     /// The same where a shader expects layers.
     pub white_array: wgpu::TextureView,
-    /// The same where it expects a volume.
-    pub white_volume: wgpu::TextureView,
     pub default_sampler: wgpu::Sampler,
     clamped_sampler: wgpu::Sampler,
     face_maps: Vec<wgpu::TextureView>,
@@ -88,7 +86,6 @@ impl TextureSet {
             views,
             samplers,
             white_array: array_view(white.texture()),
-            white_volume: white_volume(gpu),
             white,
             generated: HashMap::new(),
             default_sampler: sampler(gpu, Sampler::default()),
@@ -112,7 +109,7 @@ impl TextureSet {
 
     /// View and sampler of a generated texture, or white.
     pub fn generated(&self, generated: Generated) -> (&wgpu::TextureView, &wgpu::Sampler) {
-        (self.generated.get(&generated).unwrap_or(&self.white_volume), &self.clamped_sampler)
+        (self.generated.get(&generated).unwrap_or(&self.white), &self.clamped_sampler)
     }
 
     /// View and sampler of a face map, or white.
@@ -128,20 +125,6 @@ impl TextureSet {
         let (view, sampler) = found.unwrap_or((&self.white, &self.default_sampler));
         (view, if read.clamped { &self.clamped_sampler } else { sampler })
     }
-}
-
-fn white_volume(gpu: &Gpu) -> wgpu::TextureView {
-    let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("white volume"),
-        size: wgpu::Extent3d { width: 1, height: 1, depth_or_array_layers: 1 },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D3,
-        format: wgpu::TextureFormat::Rgba8Unorm,
-        usage: wgpu::TextureUsages::TEXTURE_BINDING,
-        view_formats: &[],
-    });
-    texture.create_view(&wgpu::TextureViewDescriptor::default())
 }
 
 /// Threshold maps of a face as one texture array; texels outside its border repeat it.

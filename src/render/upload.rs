@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-use super::character::{Character, CharacterData};
+use super::character::{self, Character, CharacterData};
 use super::draw_list::{self, casts_on_face, through_order};
 use super::geometry::Geometry;
 use super::looks::{Looks, bound_textures, stride};
@@ -130,7 +130,7 @@ impl Renderer {
             compositions,
             stride,
             textures: bound,
-            white: [textures.white.clone(), textures.white_array.clone(), textures.white_volume.clone()],
+            white: [textures.white.clone(), textures.white_array.clone()],
             default_sampler: textures.default_sampler.clone(),
             face_maps: scene.face_maps.iter().map(FaceMap::without_texels).collect(),
             metres_per_uv,
@@ -155,7 +155,8 @@ impl Renderer {
         let drawn = || draws.iter().map(|d| &looks.compositions[d.material]);
         let has_inner_lines = drawn().any(|c| c.needs("prepass_surfaces"));
         let cuts_move = drawn().any(|c| c.takes_part("uv"));
-        let sight = Sight { hdr: scene.post.is_some(), ..Sight::default() };
+        let environment = scene.lights.as_ref().is_some_and(|lights| lights.environment.is_some());
+        let sight = Sight { hdr: scene.post.is_some(), environment, ..Sight::default() };
         let requests = draw_list::requests(scene, &draws, &looks.compositions, &Picture::new(&gpu, self.output, sight));
         let has_prepass = requests.iter().any(|p| p.prepass.is_some());
         let shells = scene.materials.iter().filter_map(|m| m.fluff).map(|f| f.shells.min(MAX_SHELLS)).max();
@@ -195,10 +196,7 @@ impl Renderer {
             let depths = picture.iter().map(|p| p.prepass.clone()).collect();
             data.depths.lock().unwrap_or_else(PoisonError::into_inner)[usize::from(has_inner_lines)] = Some(depths);
         }
-        data.shown
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner)
-            .insert((None, false, sight.hdr), Arc::clone(&picture));
+        data.shown.lock().unwrap_or_else(PoisonError::into_inner).insert(character::seen(sight), Arc::clone(&picture));
         // Nobody else has seen it yet.
         let _ = data.picture.set(picture);
         Ok(Character(Arc::new(data)))

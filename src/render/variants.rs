@@ -208,7 +208,6 @@ fn layout_entry(binding: &Binding) -> wgpu::BindGroupLayoutEntry {
             BindingKind::Numbers => bind::uniform(None),
             BindingKind::Texture => bind::filtered(D::D2),
             BindingKind::TextureArray => bind::filtered(D::D2Array),
-            BindingKind::TextureVolume => bind::filtered(D::D3),
             BindingKind::Sampler => wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering),
         },
         count: None,

@@ -250,7 +250,7 @@ fn strands_run_as_they_were_uploaded() {
         let refused = renderer.shoot(&mut stage, &view(64, 2.0));
         assert!(refused.is_err(), "taken: {direction:?}");
         let message = argument(refused);
-        for words in ["actors[0].", "materials[0] \"Locks\"", "strands' direction", "at the upload"] {
+        for words in ["actors[0].", "materials[0] \"Locks\"", "directions of its hair", "at the upload"] {
             assert!(message.contains(words), "{message}");
         }
         stage.actors[0].materials.clear();

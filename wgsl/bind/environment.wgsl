@@ -11,10 +11,8 @@ fn in_environment(d: vec3f) -> vec3f {
 }
 
 // Irradiance over pi on a surface that faces n: what a white one shows.
+@if(environment)
 fn environment_irradiance(n: vec3f) -> vec3f {
-    if frame.environment_level < 0.0 {
-        return ambient(n.y);
-    }
     let d = in_environment(n);
     let h = &frame.irradiance;
     let sum = h[0] + h[1] * d.y + h[2] * d.z + h[3] * d.x + h[4] * (d.x * d.y) + h[5] * (d.y * d.z)
@@ -22,14 +20,22 @@ fn environment_irradiance(n: vec3f) -> vec3f {
     return max(sum.rgb, vec3f(0.0));
 }
 
+@if(!environment)
+fn environment_irradiance(n: vec3f) -> vec3f {
+    return ambient(n.y);
+}
+
 // Radiance that a surface of this roughness mirrors from d.
+@if(environment)
 fn environment_radiance(d: vec3f, roughness: f32) -> vec3f {
-    if frame.environment_level < 0.0 {
-        return ambient(d.y);
-    }
     let level = saturate(roughness) * frame.environment_level;
     return textureSampleLevel(environment_map, environment_sampler, in_environment(d), level).rgb
         * frame.environment_strength;
+}
+
+@if(!environment)
+fn environment_radiance(d: vec3f, roughness: f32) -> vec3f {
+    return ambient(d.y);
 }
 
 // Scale and bias of the reflectance at normal incidence (Karis 2013), whose sum is the light that a perfect mirror of this

@@ -28,15 +28,13 @@ struct Hair {
     // Of the primary and the secondary highlight and of Blinn's.
     kajiya_kay_direct: vec3f,
     kajiya_kay_indirect: vec3f,
-    // Of R, TT, TRT and the rest.
-    fibre_variances: vec4f,
-    // Of their longitudinal scattering.
+    // Longitudinal scattering of R, TT, TRT and the rest: one over the variances, and what each is multiplied by.
+    fibre_sharp: vec4f,
     fibre_scales: vec4f,
     // Sines and cosines of the tilts by the scales.
     fibre_tilt_r: vec2f,
     fibre_tilt_tt: vec2f,
     fibre_tilt_trt: vec2f,
-    fibre_color_scale: f32,
     fibre_of_base: f32,
     fibre_variation: f32,
     fibre_absorption: vec3f,

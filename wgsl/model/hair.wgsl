@@ -8,7 +8,7 @@ import package::bind::shown::shown;
 import package::bind::surface::{Shaded, Surface};
 import package::bind::uv::texture_uv;
 import package::lib::bands::banded;
-import package::lib::fibre::{TABLE_ANGLES, fibre_absorption, fibre_longitudinal, fibre_tilted};
+import package::lib::fibre::{TABLE_ANGLES, TABLE_ROWS, fibre_absorption, fibre_around, fibre_longitudinal, fibre_tilted};
 import package::lib::kajiya_kay::{shifted_strand, strand_specular, wrapped_lambert};
 import package::lib::light::luminance;
 import package::look::hair::{strand_direction, strand_shift};
@@ -120,13 +120,19 @@ fn strand_lit_from_around(s: Surface, strand: Strand) -> Lit {
     return lit;
 }
 
+// What a fibre without pigment throws where, and by which absorption it is lost.
+struct FibreEntry {
+    clear: vec4f,
+    lost: vec4f,
+}
+
 @if(hair_fibre)
-fn fibre_entry(column: f32, row: f32, absorption: f32) -> vec4f {
-    let size = vec3f(textureDimensions(hair_table));
-    let slice = (exp(-0.5 * absorption) * (size.z - 1.0) + 0.5) / size.z;
-    return textureSampleLevel(
-        hair_table, hair_table_sampler, vec3f(column / size.x, (row * (size.y - 1.0) + 0.5) / size.y, slice), 0.0
-    );
+fn fibre_entry(column: f32, row: f32) -> FibreEntry {
+    let at = vec2f(column, 0.5 + row * f32(TABLE_ROWS - 1u)) / vec2f(f32(TABLE_ANGLES + 2u), f32(TABLE_ROWS * 2u));
+    var entry: FibreEntry;
+    entry.clear = textureSampleLevel(hair_table, hair_table_sampler, at, 0.0);
+    entry.lost = textureSampleLevel(hair_table, hair_table_sampler, at + vec2f(0.0, 0.5), 0.0);
+    return entry;
 }
 
 // Row of an inclination by its sine, 0 to 1. Roots of the cosine lie close where much is reflected, and what depends on an
@@ -143,7 +149,7 @@ fn strand_variation(s: Surface) -> f32 {
     let about = luminance(textureSampleBias(base_texture, base_texture_sampler, at, 4.0).rgb);
     let darker = (about + 0.02) / (luminance(s.texel.rgb) + 0.02);
     // Colours go by the root of the absorption.
-    return pow(clamp(darker, 0.25, 4.0), 2.0 * material.hair.fibre_variation);
+    return mix(1.0, clamp(darker * darker, 0.06, 16.0), material.hair.fibre_variation);
 }
 
 // Absorption of a strand, by its pigment or by its colour.
@@ -152,9 +158,7 @@ fn strand_absorption(s: Surface, strand: Strand) -> vec3f {
     let m = &material.hair;
     var sigma = m.fibre_absorption;
     @if(hair_varied) sigma *= strand_variation(s);
-    if m.fibre_of_base > 0.0 {
-        sigma = mix(sigma, fibre_absorption(strand.color, m.fibre_color_scale), m.fibre_of_base);
-    }
+    @if(hair_of_base) sigma = mix(sigma, fibre_absorption(strand.color), m.fibre_of_base);
     return sigma * (1.0 - strand.gray);
 }
 
@@ -168,10 +172,16 @@ struct Energies {
 
 @if(hair_fibre)
 fn fibre_energies(row: f32, sigma: vec3f) -> Energies {
-    let r = fibre_entry(f32(TABLE_ANGLES) + 1.0, row, sigma.r);
-    let g = fibre_entry(f32(TABLE_ANGLES) + 1.0, row, sigma.g);
-    let b = fibre_entry(f32(TABLE_ANGLES) + 1.0, row, sigma.b);
-    return Energies(r.x, vec3f(r.y, g.y, b.y), vec3f(r.z, g.z, b.z), vec3f(r.w, g.w, b.w));
+    let entry = fibre_entry(f32(TABLE_ANGLES) + 1.0, row);
+    var e: Energies;
+    e.reflected = entry.clear.x;
+    // What comes back has gone through twice.
+    let once = exp(-entry.lost.w * sigma);
+    e.backwards = entry.clear.x + entry.clear.z * once * once;
+    e.forwards = entry.clear.y + entry.clear.w * once;
+    // What a fibre does not keep goes on to others.
+    e.around = fibre_around(e.forwards + e.backwards);
+    return e;
 }
 
 // Share of light that what is seen of a body of strands gets, each of which lets a share of it on. Through a body from behind
@@ -197,33 +207,39 @@ fn strand_lit(s: Surface, strand: Strand, to_light: vec3f, share: f32) -> Lit {
     let column = 0.5 + acos(cos_phi) / PI * f32(TABLE_ANGLES - 1u);
     let row = inclination_row(sin_o);
     let sigma = strand.absorption;
-    let v = m.fibre_variances;
+    let sharp = m.fibre_sharp;
     let to_r = fibre_tilted(sin_o, cos_o, m.fibre_tilt_r);
     let to_tt = fibre_tilted(sin_o, cos_o, m.fibre_tilt_tt);
     let to_trt = fibre_tilted(sin_o, cos_o, m.fibre_tilt_trt);
     let scale = m.fibre_scales;
     let along = vec4f(
-        fibre_longitudinal(v.x, scale.x, sin_i, cos_i, to_r.x, to_r.y),
-        fibre_longitudinal(v.y, scale.y, sin_i, cos_i, to_tt.x, to_tt.y),
-        fibre_longitudinal(v.z, scale.z, sin_i, cos_i, to_trt.x, to_trt.y),
-        fibre_longitudinal(v.w, scale.w, sin_i, cos_i, sin_o, cos_o),
+        fibre_longitudinal(sharp.x, scale.x, sin_i, cos_i, to_r.x, to_r.y),
+        fibre_longitudinal(sharp.y, scale.y, sin_i, cos_i, to_tt.x, to_tt.y),
+        fibre_longitudinal(sharp.z, scale.z, sin_i, cos_i, to_trt.x, to_trt.y),
+        fibre_longitudinal(sharp.w, scale.w, sin_i, cos_i, sin_o, cos_o),
     );
-    let r = fibre_entry(column, row, sigma.r) * along;
-    let g = fibre_entry(column, row, sigma.g) * along;
-    let b = fibre_entry(column, row, sigma.b) * along;
-    let reflected = vec3f(r.x);
-    let inner = vec3f(r.z, g.z, b.z) + vec3f(r.w, g.w, b.w);
-    let through = vec3f(r.y, g.y, b.y);
+    let entry = fibre_entry(column, row);
+    let leaving = entry.clear * along;
+    let reflected = vec3f(leaving.x);
+    let once = exp(-entry.lost.y * sigma);
+    let twice = exp(-entry.lost.z * sigma);
+    let through = leaving.y * once;
+    // The rest goes through thrice and more.
+    let inner = twice * (leaving.z + leaving.w * once);
     let e = strand.energies;
     // Light arrives straight as far as no fibre is before it (Poisson), and through those that are. What is seen of a body of
     // strands lies at all depths, from which light of both kinds is lost (Lommel and Seeliger). Strands stand out of the
     // surface that they lie on.
     let n_dot_l = dot(s.normal, to_light);
     let n_dot_v = wrapped_lambert(dot(s.normal, s.view), m.wrap);
-    let open = exp(-strand.crossed) * share;
+    var open = share;
+    var ahead = vec3f(share);
+    @if(cast_shadow) {
+        open *= exp(-strand.crossed);
+        ahead *= exp(-strand.crossed * (1.0 - e.forwards));
+    }
     let straight = body_share(vec3f(0.0), n_dot_l, n_dot_v, m.fibre_packing).x * open;
-    let with_scattered = body_share(e.forwards, n_dot_l, n_dot_v, m.fibre_packing)
-        * exp(-strand.crossed * (1.0 - e.forwards)) * share;
+    let with_scattered = body_share(e.forwards, n_dot_l, n_dot_v, m.fibre_packing) * ahead;
     let arriving = straight + ON * m.fibre_scatter * max(with_scattered - straight, vec3f(0.0));
     // What has gone about among strands comes from all depths: a soft surface's share of the light. A single layer has but half
     // of them, those beside it.
@@ -246,7 +262,7 @@ fn strand_lit_from_around(s: Surface, strand: Strand) -> Lit {
     let e = strand.energies;
     var lit: Lit;
     // R spreads as a rough mirror does.
-    let roughness = saturate(sqrt(2.0 * sqrt(m.fibre_variances.x)));
+    let roughness = saturate(sqrt(2.0 * inverseSqrt(m.fibre_sharp.x)));
     let mirrored = strand_mirrored(s, t);
     let n_dot_v = wrapped_lambert(dot(s.normal, s.view), m.wrap);
     let open = body_share(vec3f(0.0), dot(s.normal, mirrored), n_dot_v, m.fibre_packing).x * strand.occlusion;

@@ -1,7 +1,6 @@
-// The table of azimuthal scattering of fibres of one roughness and index: an entry for an angle about the fibre, an inclination
-// of the view, and what half a pass lets through. R, TT, TRT and the rest, 1/rad; the last two columns hold the
-// energies of R, of all that goes forwards and backwards, and of what goes about among many fibres and comes back.
-import package::lib::fibre::{Detector, PI, TABLE_ANGLES, fibre_azimuthal};
+// The table of azimuthal scattering of fibres of one roughness and index: a column for an angle about the fibre, a row for an
+// inclination of the view. The first rows hold what leaves a fibre without pigment, the others by which absorption it is lost.
+import package::lib::fibre::{Detector, PI, TABLE_ANGLES, TABLE_ROWS, fibre_azimuthal};
 
 struct FibreNumbers {
     width: f32,
@@ -11,50 +10,58 @@ struct FibreNumbers {
 }
 
 @group(0) @binding(0) var<uniform> numbers: FibreNumbers;
-@group(0) @binding(1) var table: texture_storage_3d<rgba16float, write>;
+@group(0) @binding(1) var table: texture_storage_2d<rgba16float, write>;
 
 // For the energies: drivers end loops after 65536 rounds.
 const COARSE: u32 = 48u;
 
-// Of light that has met three fibres and more, and comes back: its share, and what of it meets two more. Both by the pictures of
-// a path tracer (`cargo xtask compare-real hair`), whose hair of four colours follows this sum within 6 %.
-const AROUND: f32 = 0.137;
-const FURTHER: f32 = 0.66;
+// Absorption at which what is lost is measured. Ways through a fibre differ little in length (1.5 to 2 radii a pass), so that one
+// exponential serves all absorptions.
+const MEASURED: f32 = 1.0;
+
+// The inclination of a row, as sine and cosine.
+fn inclination(row: u32) -> vec2f {
+    let up = 1.0 - f32(row) / f32(TABLE_ROWS - 1u);
+    return vec2f(sqrt(1.0 - up * up * up * up), up * up);
+}
+
+// R, TT, TRT and the rest at an angle, 1/rad.
+fn at_angle(column: u32, o: vec2f, absorption: f32) -> vec4f {
+    let detector = Detector(numbers.width, numbers.is_gaussian == 1u);
+    let phi = f32(column) / f32(TABLE_ANGLES - 1u) * PI;
+    return fibre_azimuthal(phi, o.x, o.y, numbers.ior, absorption, detector, numbers.nodes);
+}
+
+// Energies: what R throws back and forwards, what all else does.
+fn energies(o: vec2f, absorption: f32) -> vec4f {
+    let detector = Detector(numbers.width, numbers.is_gaussian == 1u);
+    var sum = vec4f(0.0);
+    for (var i = 0u; i < COARSE; i++) {
+        let phi = (f32(i) + 0.5) / f32(COARSE) * PI;
+        // Both sides.
+        let n = fibre_azimuthal(phi, o.x, o.y, numbers.ior, absorption, detector, COARSE) * (2.0 * PI / f32(COARSE));
+        let inner = n.y + n.z + n.w;
+        sum += select(vec4f(0.0, n.x, 0.0, inner), vec4f(n.x, 0.0, inner, 0.0), phi < 0.5 * PI);
+    }
+    return sum;
+}
 
 @compute @workgroup_size(8, 8, 1)
 fn main(@builtin(global_invocation_id) at: vec3u) {
-    let size = textureDimensions(table);
-    if any(at >= size) {
+    if any(at.xy >= textureDimensions(table)) {
         return;
     }
-    let up = 1.0 - f32(at.y) / f32(size.y - 1u);
-    let cos_o = up * up;
-    let sin_o = sqrt(1.0 - cos_o * cos_o);
-    // Half of what one pass absorbs; whole darkness stands for an absorption of 32.
-    let absorption = -2.0 * log(max(f32(at.z) / f32(size.z - 1u), 1.1e-7));
-    let detector = Detector(numbers.width, numbers.is_gaussian == 1u);
+    let o = inclination(at.y % TABLE_ROWS);
+    var clear: vec4f;
+    var dark: vec4f;
     if at.x < TABLE_ANGLES {
-        let phi = f32(at.x) / f32(TABLE_ANGLES - 1u) * PI;
-        let n = fibre_azimuthal(phi, sin_o, cos_o, numbers.ior, absorption, detector, numbers.nodes);
-        textureStore(table, at, n);
-        return;
+        clear = at_angle(at.x, o, 0.0);
+        dark = at_angle(at.x, o, MEASURED);
+    } else {
+        clear = energies(o, 0.0);
+        dark = energies(o, MEASURED);
     }
-    var forwards = 0.0;
-    var backwards = 0.0;
-    // By R alone.
-    var reflected = 0.0;
-    for (var i = 0u; i < COARSE; i++) {
-        let phi = (f32(i) + 0.5) / f32(COARSE) * PI;
-        let n = fibre_azimuthal(phi, sin_o, cos_o, numbers.ior, absorption, detector, COARSE);
-        // Both sides.
-        let step = 2.0 * PI / f32(COARSE);
-        let sum = dot(n, vec4f(1.0)) * step;
-        forwards += select(0.0, sum, phi > 0.5 * PI);
-        backwards += select(sum, 0.0, phi > 0.5 * PI);
-        reflected += select(n.x * step, 0.0, phi > 0.5 * PI);
-    }
-    // What a fibre does not keep goes on to others.
-    let met = forwards + backwards;
-    let around = AROUND * met * met * met / (1.0 - FURTHER * met * met);
-    textureStore(table, at, vec4f(reflected, forwards, backwards, around));
+    // 1e-20: where next to nothing leaves it is no matter how it is lost.
+    let lost = log(max(clear, vec4f(1e-20)) / max(dark, vec4f(1e-20))) / MEASURED;
+    textureStore(table, at.xy, select(clear, lost, at.y >= TABLE_ROWS));
 }

@@ -6,8 +6,8 @@ use crate::render::shaders::Recipe;
 use crate::render::variants::Variants;
 use crate::{Gpu, Result};
 
-/// Angles about the fibre with two columns of energies, inclinations, and shares that one pass lets through.
-pub(crate) const SIZE: [u32; 3] = [66, 24, 40];
+/// Angles about the fibre with two columns of energies, and inclinations twice.
+pub(crate) const SIZE: [u32; 2] = [98, 48];
 
 /// What a table is made for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,7 +33,7 @@ pub(crate) fn table(variants: &Variants, inputs: FibreInputs) -> Result<wgpu::Te
     });
     let view = texture(gpu);
     // Nodes across the fibre lie closer than the detector is wide.
-    let nodes = (8.0 / inputs.width).ceil().clamp(48.0, 512.0) as u32;
+    let nodes = (16.0 / inputs.width).ceil().clamp(64.0, 512.0) as u32;
     let words = [inputs.width.to_bits(), inputs.ior.to_bits(), u32::from(inputs.is_gaussian), nodes];
     let numbers = bind::filled(gpu, "fibre", bytemuck::bytes_of(&words), wgpu::BufferUsages::UNIFORM);
     let layout = pipeline.get_bind_group_layout(0);
@@ -44,21 +44,21 @@ pub(crate) fn table(variants: &Variants, inputs: FibreInputs) -> Result<wgpu::Te
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
         pass.set_pipeline(&pipeline);
         pass.set_bind_group(0, &group, &[]);
-        let [width, height, depth] = SIZE;
-        pass.dispatch_workgroups(width.div_ceil(8), height.div_ceil(8), depth);
+        let [width, height] = SIZE;
+        pass.dispatch_workgroups(width.div_ceil(8), height.div_ceil(8), 1);
     }
     gpu.queue.submit([encoder.finish()]);
     Ok(view)
 }
 
 fn texture(gpu: &Gpu) -> wgpu::TextureView {
-    let [width, height, depth_or_array_layers] = SIZE;
+    let [width, height] = SIZE;
     let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
         label: Some("fibre"),
-        size: wgpu::Extent3d { width, height, depth_or_array_layers },
+        size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
         mip_level_count: 1,
         sample_count: 1,
-        dimension: wgpu::TextureDimension::D3,
+        dimension: wgpu::TextureDimension::D2,
         format: HDR_FORMAT,
         usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::STORAGE_BINDING,
         view_formats: &[],

@@ -112,6 +112,8 @@ pub(crate) struct Sight<'a> {
     pub channel: Option<&'a str>,
     /// Whether point and spot lights may shine; drivers without jumps pay for lights that are not there.
     pub punctual: bool,
+    /// Whether light comes from a picture all around; the same drivers would read it where there is none.
+    pub environment: bool,
     /// Whether it is drawn in half floats, which [`post`] finishes.
     pub hdr: bool,
 }
@@ -127,6 +129,7 @@ impl<'a> Picture<'a> {
         let mut recipe = recipe
             .with("encode_srgb", encodes_srgb(self.output.format))
             .with("punctual", self.sight.punctual)
+            .with("environment", self.sight.environment)
             .with("host_depth", self.output.depth.is_some());
         if let Some(channel) = self.sight.channel {
             recipe = recipe.with("channel", true).with(&format!("channel_{}", channel.replace('-', "_")), true);

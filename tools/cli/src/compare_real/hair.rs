@@ -56,6 +56,7 @@ pub(super) fn shot(dir: &Path, of: &Reference) -> Result<Shot, String> {
         tilt_rad: fibres.alpha_deg.to_radians(),
         ior: fibres.ior,
         scatter: if is_single { 0.0 } else { 1.0 },
+        variation: 0.0,
         ..FibreModel::default()
     };
     let mut scenes = Vec::new();
