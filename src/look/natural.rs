@@ -84,10 +84,11 @@ fn eye(material: &mut Material) {
 fn hair(material: &mut Material) {
     // 1.6: light that has been about often, and what the head throws back, which the measured hair on a black head is without.
     let fibre = FibreModel { of_base: 1.0, longitudinal: 0.2, azimuthal: 0.35, scatter: 1.6, ..FibreModel::default() };
-    material.hair = Some(Hair { fibre, highlight_color: [1.8; 3], ..Hair::default() });
+    material.hair = Some(Hair { fibre, highlight_color: [1.8; 3], occlusion: 0.6, ..Hair::default() });
     // Cards lie over each other, and what is denser than not hides what is behind.
     if material.alpha.mode == AlphaMode::Blend {
-        material.alpha = Alpha { blending: Blending::ThreePass, opaque_cutoff: 0.5, ..material.alpha };
+        material.alpha =
+            Alpha { blending: Blending::ThreePass, opaque_cutoff: 0.5, least_alpha: 0.1, ..material.alpha };
         material.strips = Some(Strips::default());
     }
 }

@@ -149,7 +149,7 @@ fn strand_variation(s: Surface) -> f32 {
     let about = luminance(textureSampleBias(base_texture, base_texture_sampler, at, 4.0).rgb);
     let darker = (about + 0.02) / (luminance(s.texel.rgb) + 0.02);
     // Colours go by the root of the absorption.
-    return mix(1.0, clamp(darker * darker, 0.06, 16.0), material.hair.fibre_variation);
+    return mix(1.0, clamp(darker * darker, 0.35, 3.0), material.hair.fibre_variation);
 }
 
 // Absorption of a strand, by its pigment or by its colour.
