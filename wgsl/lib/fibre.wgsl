@@ -7,8 +7,8 @@ const PI: f32 = 3.14159265;
 
 // The table of azimuthal scattering, which wgsl/pass/fibre.wgsl makes: angles from 0 to pi, a column each, and two more of
 // energies; inclinations, a row each, twice.
-const TABLE_ANGLES: u32 = 96u;
-const TABLE_ROWS: u32 = 24u;
+const TABLE_ANGLES: u32 = 126u;
+const TABLE_ROWS: u32 = 48u;
 
 // e^(y - x) I0(x) by Abramowitz and Stegun 9.8.1 and 9.8.2 (relative error 4e-7).
 fn i0_scaled(x: f32, y: f32) -> f32 {

@@ -7,7 +7,7 @@ use crate::render::variants::Variants;
 use crate::{Gpu, Result};
 
 /// Angles about the fibre with two columns of energies, and inclinations twice.
-pub(crate) const SIZE: [u32; 2] = [98, 48];
+pub(crate) const SIZE: [u32; 2] = [128, 96];
 
 /// What a table is made for.
 #[derive(Clone, Copy, Debug, PartialEq)]
