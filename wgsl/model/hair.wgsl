@@ -120,33 +120,25 @@ fn strand_lit_from_around(s: Surface, strand: Strand) -> Lit {
     return lit;
 }
 
-// What a fibre without pigment throws where, and by which absorption it is lost.
-struct FibreEntry {
-    clear: vec4f,
-    lost: vec4f,
-}
-
+// An entry of the table.
 @if(hair_fibre)
-fn fibre_entry(column: f32, row: f32) -> FibreEntry {
-    let at = vec2f(column, 0.5 + row * f32(TABLE_ROWS - 1u)) / vec2f(f32(TABLE_ANGLES + 2u), f32(TABLE_ROWS * 2u));
-    var entry: FibreEntry;
-    entry.clear = textureSampleLevel(hair_table, hair_table_sampler, at, 0.0);
-    entry.lost = textureSampleLevel(hair_table, hair_table_sampler, at + vec2f(0.0, 0.5), 0.0);
-    return entry;
+fn fibre_entry(column: f32, row: f32) -> vec4f {
+    let size = vec2f(f32(TABLE_ANGLES + 2u), f32(TABLE_ROWS * 2u));
+    return textureSampleLevel(hair_table, hair_table_sampler, vec2f(column, row) / size, 0.0);
 }
 
-// Row of an inclination by its sine, 0 to 1. Roots of the cosine lie close where much is reflected, and what depends on an
+// Row of an inclination by its sine. Roots of the cosine lie close where much is reflected, and what depends on an
 // inclination is straight over its cosine where it is small.
 @if(hair_fibre)
 fn inclination_row(sin_o: f32) -> f32 {
-    return 1.0 - sqrt(sqrt(max(1.0 - sin_o * sin_o, 0.0)));
+    return 0.5 + (1.0 - sqrt(sqrt(max(1.0 - sin_o * sin_o, 0.0)))) * f32(TABLE_ROWS - 1u);
 }
 
-// How much more a strand absorbs than the hair about it, by a texture of strands and by what it is four levels of mips above.
+// How much more a strand absorbs than the hair about it, by a texture of strands and by its mean over 16 by 16 texels.
 @if(hair_varied)
 fn strand_variation(s: Surface) -> f32 {
     let at = texture_uv(s.uv, material.base.texture_uv);
-    let about = luminance(textureSampleBias(base_texture, base_texture_sampler, at, 4.0).rgb);
+    let about = luminance(textureSampleLevel(base_texture, base_texture_sampler, at, 4.0).rgb);
     let darker = (about + 0.02) / (luminance(s.texel.rgb) + 0.02);
     // Colours go by the root of the absorption.
     return mix(1.0, clamp(darker * darker, 0.35, 3.0), material.hair.fibre_variation);
@@ -173,12 +165,12 @@ struct Energies {
 @if(hair_fibre)
 fn fibre_energies(row: f32, sigma: vec3f) -> Energies {
     let entry = fibre_entry(f32(TABLE_ANGLES) + 1.0, row);
-    var e: Energies;
-    e.reflected = entry.clear.x;
     // What comes back has gone through twice.
-    let once = exp(-entry.lost.w * sigma);
-    e.backwards = entry.clear.x + entry.clear.z * once * once;
-    e.forwards = entry.clear.y + entry.clear.w * once;
+    let once = exp(-entry.w * sigma);
+    var e: Energies;
+    e.reflected = entry.x;
+    e.backwards = entry.x + entry.z * once * once;
+    e.forwards = entry.y + (1.0 - entry.x - entry.y - entry.z) * once;
     // What a fibre does not keep goes on to others.
     e.around = fibre_around(e.forwards + e.backwards);
     return e;
@@ -218,11 +210,11 @@ fn strand_lit(s: Surface, strand: Strand, to_light: vec3f, share: f32) -> Lit {
         fibre_longitudinal(sharp.z, scale.z, sin_i, cos_i, to_trt.x, to_trt.y),
         fibre_longitudinal(sharp.w, scale.w, sin_i, cos_i, sin_o, cos_o),
     );
-    let entry = fibre_entry(column, row);
-    let leaving = entry.clear * along;
+    let leaving = fibre_entry(column, row) * along;
+    let lost = fibre_entry(column, row + f32(TABLE_ROWS));
     let reflected = vec3f(leaving.x);
-    let once = exp(-entry.lost.y * sigma);
-    let twice = exp(-entry.lost.z * sigma);
+    let once = exp(-lost.y * sigma);
+    let twice = exp(-lost.z * sigma);
     let through = leaving.y * once;
     // The rest goes through thrice and more.
     let inner = twice * (leaving.z + leaving.w * once);

@@ -1,5 +1,7 @@
 // The table of azimuthal scattering of fibres of one roughness and index: a column for an angle about the fibre, a row for an
-// inclination of the view. The first rows hold what leaves a fibre without pigment, the others by which absorption it is lost.
+// inclination of the view. The first rows hold what leaves a fibre without pigment, the others by which absorption it is lost. The
+// last two columns hold energies: what R throws back and forwards, what all else throws back (the rest of all light goes
+// forwards), and by which absorption that is lost.
 import package::lib::fibre::{Detector, PI, TABLE_ANGLES, TABLE_ROWS, fibre_azimuthal};
 
 struct FibreNumbers {
@@ -46,22 +48,24 @@ fn energies(o: vec2f, absorption: f32) -> vec4f {
     return sum;
 }
 
+// By which absorption light is lost. 1e-20: where next to nothing leaves it is no matter how.
+fn absorbed(clear: vec4f, dark: vec4f) -> vec4f {
+    return log(max(clear, vec4f(1e-20)) / max(dark, vec4f(1e-20))) / MEASURED;
+}
+
 @compute @workgroup_size(8, 8, 1)
 fn main(@builtin(global_invocation_id) at: vec3u) {
     if any(at.xy >= textureDimensions(table)) {
         return;
     }
     let o = inclination(at.y % TABLE_ROWS);
-    var clear: vec4f;
-    var dark: vec4f;
-    if at.x < TABLE_ANGLES {
-        clear = at_angle(at.x, o, 0.0);
-        dark = at_angle(at.x, o, MEASURED);
-    } else {
-        clear = energies(o, 0.0);
-        dark = energies(o, MEASURED);
+    if at.x >= TABLE_ANGLES {
+        let clear = energies(o, 0.0);
+        let lost = absorbed(clear, energies(o, MEASURED));
+        textureStore(table, at.xy, vec4f(clear.xyz, lost.w));
+        return;
     }
-    // 1e-20: where next to nothing leaves it is no matter how it is lost.
-    let lost = log(max(clear, vec4f(1e-20)) / max(dark, vec4f(1e-20))) / MEASURED;
+    let clear = at_angle(at.x, o, 0.0);
+    let lost = absorbed(clear, at_angle(at.x, o, MEASURED));
     textureStore(table, at.xy, select(clear, lost, at.y >= TABLE_ROWS));
 }
