@@ -387,7 +387,6 @@ fn light_from_all_around_goes_by_name_or_by_a_picture_beside_the_file() {
         apply_at(&file, text, &mut scene).unwrap_or_else(|e| panic!("{text:?}: {e}"));
         scene.lights.and_then(|l| l.environment)
     };
-    // Not printed: a picture has very many texels.
     for (text, expected) in [
         ("base = \"plain\"", None),
         ("[environment]", Some(Environment::studio())),

@@ -158,12 +158,8 @@ fn fibre_around(met: vec3f) -> vec3f {
     return 0.137 * again * met / (1.0 - 0.66 * again);
 }
 
-// What is left of light that a fibre passes on, by its absorption: ways through it are about 1.85 radii long.
-fn fibre_passed(absorption: vec3f) -> vec3f {
-    return exp(-1.85 * absorption);
-}
-
-// Absorption at which that body has a share of what it has without pigment: the inverse of both, within 0.01.
+// Absorption at which that body has a share of what it has without pigment: the inverse of that sum, within 0.01, where ways
+// through a fibre are 1.85 radii long.
 fn fibre_absorption(color: vec3f) -> vec3f {
     let x = -log(clamp(color, vec3f(1e-3), vec3f(1.0)));
     return x * (0.082 + 0.0138 * x);

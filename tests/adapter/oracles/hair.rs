@@ -274,7 +274,7 @@ fn colours_become_absorption() {
     let rows: Vec<Vec<f32>> = (0..=100).map(|i| vec![(i as f32 / 100.0).max(0.005)]).collect();
     let body = "
         let sigma = fibre_absorption(vec3f(input[base]));
-        output[out] = fibre_around(fibre_passed(sigma)).x / fibre_around(vec3f(1.0)).x;";
+        output[out] = fibre_around(exp(-1.85 * sigma)).x / fibre_around(vec3f(1.0)).x;";
     for (row, found) in rows.iter().zip(run(&["fibre"], body, &rows, 1)) {
         assert!((found[0] - row[0]).abs() <= 0.01, "{}: {}", row[0], found[0]);
     }
