@@ -10,17 +10,13 @@ const PI: f32 = 3.14159265;
 const TABLE_ANGLES: u32 = 126u;
 const TABLE_ROWS: u32 = 48u;
 
-// e^(y - x) I0(x) by Abramowitz and Stegun 9.8.1 and 9.8.2 (relative error 4e-7).
+// e^(y - x) I0(x): a polynomial of one over a root that grows as that function falls (fitted; relative error 1.3e-4).
 fn i0_scaled(x: f32, y: f32) -> f32 {
-    let t = x / 3.75;
-    let u = t * t;
-    let near = 1.0 + u * (3.5156229 + u * (3.0899424 + u * (1.2067492 + u * (0.2659732 + u * (0.0360768 + u * 0.0045813)))));
-    let root = inverseSqrt(max(x, 1e-6));
-    let r = 3.75 * root * root;
-    let far = 0.39894228 + r * (0.01328592 + r * (0.00225319 + r * (-0.00157565 + r * (0.00916281 + r * (-0.02057706
-        + r * (0.02635537 + r * (-0.01647633 + r * 0.00392377)))))));
-    let is_near = x < 3.75;
-    return select(far * root, near, is_near) * exp(y - select(0.0, x, is_near));
+    let r = inverseSqrt(1.0 + 0.422993227 * x);
+    let q = r * r;
+    let p = 0.25943242 + q * (0.148429207 + q * (-0.00560678458 + q * (1.2949697 + q * (-4.8770419 + q * (10.2158911
+        + q * (-8.53038180 + q * 2.49427397))))));
+    return r * p * exp(y);
 }
 
 // Longitudinal scattering M of variance v: the integral of M cos theta over theta is 1. `scale` is csch(1/v) / (2v) without its

@@ -29,7 +29,12 @@ struct Strand {
     gray: f32,
     // Fibres between it and the key light.
     crossed: f32,
-    // Of fibres: absorption, and what goes where of the light that meets one.
+    // Of fibres: direction as the shift map tilts their scales, sine and cosine of the view's inclination, row of the table,
+    // absorption, and what goes where of the light that meets one.
+    tilted: vec3f,
+    sin_o: f32,
+    cos_o: f32,
+    row: f32,
     absorption: vec3f,
     energies: Energies,
 }
@@ -64,8 +69,13 @@ fn strand_of(s: Surface) -> Strand {
         strand.color = mix(strand.color, vec3f(luminance(strand.color)), strand.gray);
     }
     @if(hair_fibre) {
+        strand.tilted = strand.direction;
+        @if(hair_shift_map) strand.tilted = shifted_strand(strand.direction, s.normal, strand.shift);
+        strand.sin_o = clamp(dot(strand.tilted, s.view), -1.0, 1.0);
+        strand.cos_o = sqrt(max(1.0 - strand.sin_o * strand.sin_o, 1e-6));
+        strand.row = inclination_row(strand.cos_o);
         strand.absorption = strand_absorption(s, strand);
-        strand.energies = fibre_energies(inclination_row(dot(strand.direction, s.view)), strand.absorption);
+        strand.energies = fibre_energies(strand.row, strand.absorption);
     }
     @if(hair_fibre && cast_shadow) strand.crossed =
         shadow_thickness(s.at.actor, s.at.shadow) * material.hair.fibre_density * material.cast_shadow.received;
@@ -127,11 +137,11 @@ fn fibre_entry(column: f32, row: f32) -> vec4f {
     return textureSampleLevel(hair_table, hair_table_sampler, vec2f(column, row) / size, 0.0);
 }
 
-// Row of an inclination by its sine. Roots of the cosine lie close where much is reflected, and what depends on an
+// Row of an inclination by its cosine. Roots of the cosine lie close where much is reflected, and what depends on an
 // inclination is straight over its cosine where it is small.
 @if(hair_fibre)
-fn inclination_row(sin_o: f32) -> f32 {
-    return 0.5 + (1.0 - sqrt(sqrt(max(1.0 - sin_o * sin_o, 0.0)))) * f32(TABLE_ROWS - 1u);
+fn inclination_row(cos_o: f32) -> f32 {
+    return 0.5 + (1.0 - sqrt(cos_o)) * f32(TABLE_ROWS - 1u);
 }
 
 // How much more a strand absorbs than the hair about it, by a texture of strands and by its mean over 16 by 16 texels.
@@ -189,15 +199,12 @@ fn body_share(forwards: vec3f, n_dot_l: f32, n_dot_v: f32, packing: f32) -> vec3
 @if(hair_fibre)
 fn strand_lit(s: Surface, strand: Strand, to_light: vec3f, share: f32) -> Lit {
     let m = &material.hair;
-    // The shift map tilts the scales.
-    let t = shifted_strand(strand.direction, s.normal, strand.shift);
-    let sin_o = clamp(dot(t, s.view), -1.0, 1.0);
-    let sin_i = clamp(dot(t, to_light), -1.0, 1.0);
-    let cos_o = sqrt(max(1.0 - sin_o * sin_o, 1e-6));
+    let sin_o = strand.sin_o;
+    let cos_o = strand.cos_o;
+    let sin_i = clamp(dot(strand.tilted, to_light), -1.0, 1.0);
     let cos_i = sqrt(max(1.0 - sin_i * sin_i, 1e-6));
     let cos_phi = clamp((dot(s.view, to_light) - sin_o * sin_i) / (cos_o * cos_i), -1.0, 1.0);
     let column = 0.5 + acos(cos_phi) / PI * f32(TABLE_ANGLES - 1u);
-    let row = inclination_row(sin_o);
     let sigma = strand.absorption;
     let sharp = m.fibre_sharp;
     let to_r = fibre_tilted(sin_o, cos_o, m.fibre_tilt_r);
@@ -210,8 +217,8 @@ fn strand_lit(s: Surface, strand: Strand, to_light: vec3f, share: f32) -> Lit {
         fibre_longitudinal(sharp.z, scale.z, sin_i, cos_i, to_trt.x, to_trt.y),
         fibre_longitudinal(sharp.w, scale.w, sin_i, cos_i, sin_o, cos_o),
     );
-    let leaving = fibre_entry(column, row) * along;
-    let lost = fibre_entry(column, row + f32(TABLE_ROWS));
+    let leaving = fibre_entry(column, strand.row) * along;
+    let lost = fibre_entry(column, strand.row + f32(TABLE_ROWS));
     let reflected = vec3f(leaving.x);
     let once = exp(-lost.y * sigma);
     let twice = exp(-lost.z * sigma);
@@ -250,12 +257,11 @@ fn strand_lit(s: Surface, strand: Strand, to_light: vec3f, share: f32) -> Lit {
 @if(hair_fibre)
 fn strand_lit_from_around(s: Surface, strand: Strand) -> Lit {
     let m = &material.hair;
-    let t = shifted_strand(strand.direction, s.normal, strand.shift);
     let e = strand.energies;
     var lit: Lit;
     // R spreads as a rough mirror does.
     let roughness = saturate(sqrt(2.0 * inverseSqrt(m.fibre_sharp.x)));
-    let mirrored = strand_mirrored(s, t);
+    let mirrored = strand_mirrored(s, strand.tilted);
     let n_dot_v = wrapped_lambert(dot(s.normal, s.view), m.wrap);
     let open = body_share(vec3f(0.0), dot(s.normal, mirrored), n_dot_v, m.fibre_packing).x * strand.occlusion;
     lit.highlights = environment_radiance(mirrored, roughness) * (e.reflected * open);
