@@ -45,12 +45,13 @@ pub mod picture;
 pub mod render;
 pub mod scene;
 pub mod sdf;
+pub mod skin;
 mod stage;
 
 pub use error::{Error, Result};
 pub use glam;
 pub use gpu::{AdapterInfo, Gpu};
-pub use look::{Look, LookFile};
+pub use look::{Look, LookFile, ProfileFile};
 pub use render::{Background, Channel, Character, Far, GpuMemory, HostDepth, Output, Renderer, Target, View, shaders};
 pub use stage::{Actor, Grid, Ground, Stage, StageShadow};
 pub use wgpu;

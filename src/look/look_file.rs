@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use toml::{Table, Value};
 
 use super::{
-    Look,
+    Look, ProfileFile,
     anime::materials_of,
     presets,
     values::{merge, nearest, no_such, not_finite, units},
@@ -17,9 +17,10 @@ use crate::import::{Limits, image, load_radiance};
 use crate::material::{About, AlphaMode, Field, Kind, Material, Part, Read, all, out_of_range, registered};
 use crate::scene::{Ambient, DirectionalLight, Environment, Image, Lights, Role, Sampler, Scene, Texture, Wrap};
 use crate::sdf::{FaceLayout, FaceMap, Texels};
+use crate::skin::DiffusionProfile;
 use crate::{Error, Result};
 
-/// Largest look file, bytes.
+/// Largest look file or profile file, bytes.
 const MAX_BYTES: u64 = 1 << 20;
 
 /// A look in a file: `MODEL.look.toml`.
@@ -58,6 +59,8 @@ const MAX_BYTES: u64 = 1 << 20;
 ///
 /// [material.Brooch]
 /// gem = "ruby"                        # a section by the name of a preset, or by numbers over one: { preset = "ruby", depth_mm = 4 }
+/// [material.Nose]
+/// skin = { profile = "jade" }         # a diffusion profile by name, or by a file beside this one: "nose.profile.toml"
 ///
 /// [material."Face skin".outline]      # sections of one material; these come last
 /// color = "#8c4a44"
@@ -66,8 +69,8 @@ const MAX_BYTES: u64 = 1 << 20;
 /// Sections and keys are those of [`Material`](crate::material::Material), [`Bangs`](crate::scene::Bangs),
 /// [`SelfShadow`](crate::scene::SelfShadow), [`EyesThrough`](crate::scene::EyesThrough) and [`Post`](crate::scene::Post). What a file does not name stays
 /// as it is. Instead of `_rad` a key may end in `_deg`, instead of `_m` in `_cm` or `_mm`; a colour may be `"#rrggbb"` (sRGB)
-/// or linear numbers; a texture is a file beside the look file. A name or key that does not exist is an error with the
-/// nearest one that does.
+/// or linear numbers; a texture is a file beside the look file, and so is a [`ProfileFile`]. A name or key that does not exist
+/// is an error with the nearest one that does.
 #[derive(Clone, Debug, Default)]
 pub struct LookFile {
     path: PathBuf,
@@ -161,13 +164,7 @@ impl LookFile {
     /// The file cannot be read, is over 1 MiB, is not TOML, or has a key that does not exist.
     pub fn read(path: impl AsRef<Path>) -> Result<Self> {
         let path = path.as_ref();
-        let bytes = image::read(path, &Limits { file_bytes: MAX_BYTES, ..Limits::default() })?;
-        let text = String::from_utf8(bytes).map_err(|e| Error::Input {
-            path: path.display().to_string(),
-            pointer: format!("byte {}", e.utf8_error().valid_up_to()),
-            message: "is not UTF-8; TOML is UTF-8 text".to_owned(),
-        })?;
-        Self::parse(path, &text)
+        Self::parse(path, &read_text(path)?)
     }
 
     /// Reads the text of a look file; textures are looked for beside `path`.
@@ -344,6 +341,9 @@ impl LookFile {
             self.face_maps(scene, shadow, &format!("{pointer}.face_shadow"))?;
         }
         presets::expand(&mut over).map_err(|message| self.fault(pointer, message))?;
+        if let Some(Value::Table(skin)) = over.get_mut("skin") {
+            self.profile(skin, &format!("{pointer}.skin.profile"))?;
+        }
         self.textures(scene, &mut over, pointer)?;
         units(&mut over, false).map_err(|message| self.fault(pointer, message))?;
         let own: Vec<_> = registered().into_iter().filter_map(|r| Some((r, over.remove(r.about.key)?))).collect();
@@ -440,6 +440,29 @@ impl LookFile {
         face.check().map_err(|e| self.fault(pointer, e.to_string()))?;
         scene.face_maps.push(face);
         section.insert("map".to_owned(), Value::Integer(scene.face_maps.len() as i64 - 1));
+        Ok(())
+    }
+
+    /// Puts the numbers of a diffusion profile in the place of its name or of its file.
+    fn profile(&self, section: &mut Table, pointer: &str) -> Result<()> {
+        let name = match section.get("profile") {
+            Some(Value::String(name)) => name,
+            None | Some(Value::Table(_) | Value::Boolean(false)) => return Ok(()),
+            Some(_) => {
+                let message = "expected a table, or the name of a profile or of a .profile.toml file";
+                return Err(self.fault(pointer, message.to_owned()));
+            }
+        };
+        let profile = if name.ends_with(".toml") {
+            ProfileFile::read(self.beside_this(Path::new(name), pointer)?)?.profile
+        } else {
+            let known = DiffusionProfile::presets();
+            DiffusionProfile::named(name).ok_or_else(|| {
+                let message = no_such("diffusion profile", name, known.iter().map(|p| p.name));
+                self.fault(pointer, format!("{message}; or name a .profile.toml file"))
+            })?
+        };
+        section.insert("profile".to_owned(), Value::Table(table_of(profile).unwrap_or_default()));
         Ok(())
     }
 
@@ -550,7 +573,18 @@ fn strip_textures(fields: &[Field], table: &mut Table) {
     }
 }
 
-fn line_of(text: &str, span: Option<std::ops::Range<usize>>) -> String {
+/// The text of a file of at most a MiB.
+pub(super) fn read_text(path: &Path) -> Result<String> {
+    let bytes = image::read(path, &Limits { file_bytes: MAX_BYTES, ..Limits::default() })?;
+    String::from_utf8(bytes).map_err(|e| Error::Input {
+        path: path.display().to_string(),
+        pointer: format!("byte {}", e.utf8_error().valid_up_to()),
+        message: "is not UTF-8; TOML is UTF-8 text".to_owned(),
+    })
+}
+
+/// The line that a fault of TOML begins in.
+pub(super) fn line_of(text: &str, span: Option<std::ops::Range<usize>>) -> String {
     let before = span.and_then(|s| text.get(..s.start));
     before.map_or("file".to_owned(), |b| format!("line {}", b.matches('\n').count() + 1))
 }

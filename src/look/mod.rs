@@ -5,9 +5,11 @@ mod hair_band;
 mod look_file;
 mod natural;
 mod presets;
+mod profile_file;
 mod values;
 
 pub use look_file::LookFile;
+pub use profile_file::ProfileFile;
 
 use crate::scene::Scene;
 use crate::sdf::Sides;

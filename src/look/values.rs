@@ -4,6 +4,7 @@
 use toml::{Table, Value};
 
 use crate::color::Srgb;
+use crate::material::{Field, Kind, all};
 
 /// Lays a table over another. `false` takes a section out. The variants of an enum exclude each other, so that theirs are
 /// replaced whole.
@@ -36,7 +37,8 @@ pub(super) fn units(table: &mut Table, with_alpha: bool) -> Result<(), String> {
     for key in keys {
         let suffixes = [("_deg", "_rad", std::f64::consts::PI / 180.0), ("_cm", "_m", 0.01), ("_mm", "_m", 0.001)];
         let is_color = key == "color" || key.ends_with("_color") || key == "ambient";
-        if let Some((suffix, unit, scale)) = suffixes.iter().find(|(suffix, ..)| key.ends_with(suffix)) {
+        let in_other_unit = suffixes.iter().find(|(suffix, ..)| key.ends_with(suffix) && !is_field(&key));
+        if let Some((suffix, unit, scale)) = in_other_unit {
             let value = table.remove(&key).unwrap_or(Value::Boolean(false));
             let scaled =
                 scaled(&value, *scale).ok_or_else(|| format!("{key}: expected a number or a list of numbers"))?;
@@ -62,6 +64,14 @@ pub(super) fn units(table: &mut Table, with_alpha: bool) -> Result<(), String> {
         }
     }
     Ok(())
+}
+
+/// Whether a section holds this very key, in the unit that it ends in.
+fn is_field(key: &str) -> bool {
+    fn has(fields: &[Field], key: &str) -> bool {
+        fields.iter().any(|f| f.name == key || matches!(f.kind, Kind::Part(inner) if has(inner.fields, key)))
+    }
+    all().any(|about| has(about.inner.fields, key))
 }
 
 fn scaled(value: &Value, by: f64) -> Option<Value> {
@@ -120,13 +130,15 @@ mod tests {
     #[test]
     fn units_and_colours_are_converted() {
         let mut table: Table = toml::from_str(
-            "a_deg = [180, 90.0]\nb_mm = 3\nc_cm = 2.5\nrim_color = \"#ffffff\"\n[base]\ncolor = \"#000000\"",
+            "a_deg = [180, 90.0]\nb_mm = 3\nc_cm = 2.5\nrim_color = \"#ffffff\"\nthickness_remap_mm = [0, 2]\n\
+             [base]\ncolor = \"#000000\"",
         )
         .expect("TOML");
         units(&mut table, false).expect("known units");
         let text = table.to_string();
         assert!(text.contains("a_rad = [3.14159265358"), "{text}");
         assert!(text.contains("b_m = 0.003") && text.contains("c_m = 0.025"), "{text}");
+        assert!(text.contains("thickness_remap_mm = [0, 2]"), "{text}");
         assert!(
             text.contains("rim_color = [1.0, 1.0, 1.0]") && text.contains("color = [0.0, 0.0, 0.0, 1.0]"),
             "{text}"

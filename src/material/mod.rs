@@ -74,6 +74,8 @@ sections! {
     fire: Option<Fire>,
     /// Strands that are lit. Default: none.
     hair: Option<Hair>,
+    /// Skin that scatters light. Default: none.
+    skin: Option<Skin>,
     /// Painted highlight that moves. Default: none.
     highlight: Option<Highlight>,
     /// A picture of light looked up by the view-space normal. Default: none.

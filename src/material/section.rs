@@ -4,6 +4,7 @@
 use std::fmt;
 
 use super::walk::ROOT;
+use super::skin::SkinTable;
 use super::{About, Material, Part, Walk};
 use crate::motion::Driven;
 use crate::render::layout::Block;
@@ -80,6 +81,8 @@ pub enum Generated {
         /// Whether the detector is Gaussian.
         is_gaussian: bool,
     },
+    /// How light scatters in skin, and what it mirrors.
+    Skin(SkinTable),
 }
 
 /// What [`section!`](crate::section) makes of a declaration.

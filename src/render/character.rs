@@ -13,7 +13,7 @@ use super::pass::bangs_shadow::BangsFit;
 use super::pass::deform::DeformSource;
 use super::pass::shadow::{self, ShadowFit};
 use super::pass::{Picture, Sight};
-use super::pass::{glow, prepass, velocity};
+use super::pass::{glow, irradiance, prepass, velocity};
 use super::variants::{Bound, Drawn, Request, Variant, Variants};
 use crate::material::Material;
 use crate::scene::Scene;
@@ -56,6 +56,8 @@ pub(crate) struct CharacterData {
     pub glows: OnceLock<Depths>,
     /// What draws the movement of each draw that is not blended.
     pub velocities: OnceLock<Depths>,
+    /// What draws the light on skin, by whether lamps and an environment shine.
+    pub irradiances: Mutex<BTreeMap<[bool; 2], Depths>>,
     /// Depth, normal and part of every draw, for the channels that show these.
     pub geometry: OnceLock<Vec<Drawn>>,
     /// Eyes and brows that are seen through hair, the foremost first.
@@ -67,6 +69,8 @@ pub(crate) struct CharacterData {
     pub has_inner_lines: bool,
     /// Whether time moves what is cut out of a material.
     pub cuts_move: bool,
+    /// Most places that are read for light that spreads over the picture; 0 where none does.
+    pub scatter_taps: usize,
     /// Most shells of a coat.
     pub shells: u32,
     pub part_materials: Vec<usize>,
@@ -261,6 +265,23 @@ impl CharacterData {
         let made =
             self.draws.iter().map(|draw| (!draw.blend).then(|| drawn(draw)).transpose()).collect::<Result<_>>()?;
         Ok(Arc::clone(self.velocities.get_or_init(|| made)))
+    }
+
+    /// What draws the light on skin that spreads over the picture.
+    pub fn irradiances(&self, variants: &Variants, sight: Sight<'_>) -> Result<Depths> {
+        let by = [sight.punctual, sight.environment];
+        if let Some(known) = lock(&self.irradiances).get(&by) {
+            return Ok(Arc::clone(known));
+        }
+        let drawn = |draw: &Draw| {
+            let (of, material) = (&self.looks.compositions[draw.material], self.material(draw));
+            let is_skin = of.is_on("skin_screen_space");
+            let request = is_skin.then(|| irradiance::request(of, material, draw.has_vertex_colors, sight));
+            request.map(|request| Ok(self.bind(&variants.gpu, variants.get(&request)?, draw.material))).transpose()
+        };
+        let made: Depths = self.draws.iter().map(drawn).collect::<Result<_>>()?;
+        lock(&self.irradiances).insert(by, Arc::clone(&made));
+        Ok(made)
     }
 
     /// What draws depth, normal and part of every draw.

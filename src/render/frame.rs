@@ -11,6 +11,7 @@ use super::finish::Finish;
 use super::layers::Layers;
 use super::layout::Filled;
 use super::numbers::put_view;
+use super::pass::HDR_FORMAT;
 use super::pass::background::BackgroundInputs;
 use super::pass::bangs_shadow::{self, BangsShadowInputs};
 use super::pass::ground::GroundInputs;
@@ -18,6 +19,7 @@ use super::pass::prepass::{self, PrepassInputs};
 use super::pass::shadow::{self, ShadowInputs};
 use super::pass::velocity::{self, VelocityInputs};
 use super::pass::{eyes_through, fluff, opaque, outline, transparent};
+use super::scattering::Scattering;
 use super::take::{Shown, Take};
 use super::targets::{self, ColorTargets, PrepassTargets};
 use super::temporal::{Following, Temporal};
@@ -27,6 +29,9 @@ use crate::color::Srgb;
 use crate::scene::{Antialias, Image, Post};
 use crate::stage::bodies::Bodies;
 use crate::{Error, Gpu, Result, Stage};
+
+/// Depth, normals and parts, and light that has scattered in skin.
+type ReadByColor = [wgpu::TextureView; 3];
 
 /// What frames are drawn with, and into.
 #[derive(Debug)]
@@ -44,8 +49,12 @@ pub(super) struct Frame {
     no_prepass: PrepassTargets,
     // What few pictures need is made when one does.
     color_targets: Option<ColorTargets>,
-    /// With the group 0 that reads them.
-    prepass_targets: Option<(PrepassTargets, wgpu::BindGroup)>,
+    prepass_targets: Option<PrepassTargets>,
+    scattering: Option<Scattering>,
+    /// Stands for what scatters where nothing does.
+    no_scattered: wgpu::TextureView,
+    /// Group 0 of the colour pass, with what it reads of other passes, where it reads any.
+    color_group: Option<(ReadByColor, wgpu::BindGroup)>,
     layers: Option<Layers>,
     temporal: Option<Temporal>,
     finish: Finish,
@@ -60,10 +69,12 @@ impl Frame {
         let environments = Environments::new(gpu);
         let environment = environments.none();
         let no_prepass = PrepassTargets::new(gpu, [1, 1], false);
+        let no_scattered = targets::sampled(gpu, "none", [1, 1], HDR_FORMAT);
+        let nothing = [&no_prepass.depth_view, &no_prepass.surfaces_view, &no_scattered].map(Clone::clone);
         Self {
             uploads: Uploads::new(gpu),
             blended: BlendedList::new(gpu),
-            group: frame_group(gpu, layouts, (&uniform, &environments, &environment), &no_prepass),
+            group: frame_group(gpu, layouts, (&uniform, &environments, &environment), &nothing),
             environments,
             environment,
             numbers,
@@ -71,6 +82,9 @@ impl Frame {
             no_prepass,
             color_targets: None,
             prepass_targets: None,
+            scattering: None,
+            no_scattered,
+            color_group: None,
             layers: None,
             temporal: None,
             finish: Finish::default(),
@@ -122,6 +136,8 @@ impl Frame {
             // Depth of all surfaces, and their normals and parts, where a material reads them.
             self.encode_prepass(r, encoder, stage, take, clock)?;
         }
+        // Light that falls on skin, and spreads in it.
+        self.encode_scattering(r, encoder, stage, take)?;
         // How far surfaces have moved, where a picture follows another.
         self.encode_velocity(r, encoder, stage, take)?;
         // Light that blooms, and how far it spreads.
@@ -152,7 +168,7 @@ impl Frame {
         take: &Take<'_>,
         pipelines: &[Drawables],
     ) -> Result<()> {
-        let frame = self.color_frame_group(stage, take.post);
+        let frame = self.color_frame_group();
         // What is behind everything.
         if let (true, Background::Environment, Some(_), false) =
             (take.shown.is_finished(), take.view.background, &stage.lights.environment, take.target.keeps_color)
@@ -242,11 +258,13 @@ impl Frame {
         }
         let has_surfaces = has_surfaces(stage);
         let fits = |t: &PrepassTargets| t.size == view.size && (t.has_surfaces || !has_surfaces);
-        if has_prepass(stage, *post) && !self.prepass_targets.as_ref().is_some_and(|(t, _)| fits(t)) {
-            let targets = PrepassTargets::new(&gpu, view.size, has_surfaces);
-            let group = frame_group(&gpu, &r.layouts, self.shared(), &targets);
-            self.prepass_targets = Some((targets, group));
+        if has_prepass(stage, *post) && !self.prepass_targets.as_ref().is_some_and(fits) {
+            self.prepass_targets = Some(PrepassTargets::new(&gpu, view.size, has_surfaces));
         }
+        if scatters(stage, take) {
+            Scattering::fit(&mut self.scattering, r, view.size)?;
+        }
+        self.fit_color_group(r, has_prepass(stage, *post), scatters(stage, take));
         let pipelines = stage.bodies.troupes.iter().map(|troupe| troupe.data().shown(&r.variants, picture));
         Ok((pipelines.collect::<Result<_>>()?, following))
     }
@@ -289,14 +307,28 @@ impl Frame {
         let map = self.environments.of(&r.variants, stage.lights.environment.as_ref())?;
         if map.cube != self.environment.cube {
             self.environment = map;
-            let gpu = r.gpu();
-            self.group = frame_group(gpu, &r.layouts, self.shared(), &self.no_prepass);
-            if let Some((targets, _)) = self.prepass_targets.take() {
-                let group = frame_group(gpu, &r.layouts, self.shared(), &targets);
-                self.prepass_targets = Some((targets, group));
-            }
+            self.group = frame_group(r.gpu(), &r.layouts, self.shared(), &self.read(false, false));
+            self.color_group = None;
         }
         Ok(())
+    }
+
+    /// What the colour pass reads of other passes.
+    fn read(&self, prepass: bool, scattered: bool) -> ReadByColor {
+        let drawn = self.prepass_targets.as_ref().filter(|_| prepass).unwrap_or(&self.no_prepass);
+        let scattered = self.scattering.as_ref().filter(|_| scattered).map_or(&self.no_scattered, |s| &s.scattered);
+        [&drawn.depth_view, &drawn.surfaces_view, scattered].map(Clone::clone)
+    }
+
+    /// Makes group 0 of the colour pass, where it is another than that of other passes and of the last picture.
+    fn fit_color_group(&mut self, r: &Renderer, prepass: bool, scattered: bool) {
+        let read = self.read(prepass, scattered);
+        if !prepass && !scattered {
+            self.color_group = None;
+        } else if self.color_group.as_ref().is_none_or(|(known, _)| *known != read) {
+            let group = frame_group(r.gpu(), &r.layouts, self.shared(), &read);
+            self.color_group = Some((read, group));
+        }
     }
 
     /// What group 0 holds beside what a prepass draws.
@@ -359,13 +391,27 @@ impl Frame {
         let Some(actors) = actors(stage, &self.group, looking).filter(|_| has_prepass(stage, take.post)) else {
             return Ok(());
         };
-        if let Some((targets, _)) = &self.prepass_targets {
+        if let Some(targets) = &self.prepass_targets {
             let surfaces = has_surfaces(stage);
             let depths = actors.bodies.troupes.iter().map(|t| t.data().depths(&r.variants, surfaces));
             let depths = depths.collect::<Result<Vec<_>>>()?;
             let drawn = &|troupe: usize, draw: usize| depths[troupe][draw].as_ref();
             let inputs = PrepassInputs { actors, targets, surfaces, drawn };
             prepass::encode(encoder, inputs, clock.render(Timed::Prepass));
+        }
+        Ok(())
+    }
+
+    fn encode_scattering(
+        &mut self,
+        r: &Renderer,
+        encoder: &mut wgpu::CommandEncoder,
+        stage: &Stage,
+        take: &Take<'_>,
+    ) -> Result<()> {
+        let actors = actors(stage, &self.group, take.view.first_person).filter(|_| scatters(stage, take));
+        if let (Some(actors), Some(scattering)) = (actors, &self.scattering) {
+            scattering.encode(r, &mut self.uploads, encoder, actors, (take.view, take.picture.sight))?;
         }
         Ok(())
     }
@@ -432,13 +478,12 @@ impl Frame {
 
     /// What passes bind that draw the colour of a view.
     fn color_actors<'a>(&'a self, stage: &'a Stage, take: &Take<'_>) -> Option<Actors<'a>> {
-        actors(stage, self.color_frame_group(stage, take.post), take.view.first_person)
+        actors(stage, self.color_frame_group(), take.view.first_person)
     }
 
-    /// Group 0 of the colour pass: with what the prepass drew where a material reads it.
-    fn color_frame_group(&self, stage: &Stage, post: Option<Post>) -> &wgpu::BindGroup {
-        let drawn = self.prepass_targets.as_ref().filter(|_| has_prepass(stage, post));
-        drawn.map_or(&self.group, |(_, group)| group)
+    /// Group 0 of the colour pass.
+    fn color_frame_group(&self) -> &wgpu::BindGroup {
+        self.color_group.as_ref().map_or(&self.group, |(_, group)| group)
     }
 
     /// Renders one of the prepass's channels as a picture.
@@ -484,6 +529,12 @@ fn has_surfaces(stage: &Stage) -> bool {
     stage.bodies.troupes.iter().any(|troupe| troupe.data().has_inner_lines)
 }
 
+/// Whether light scatters in something on it over the picture.
+fn scatters(stage: &Stage, take: &Take<'_>) -> bool {
+    let is_floor = matches!(take.shown, Shown::Floor(_));
+    !is_floor && stage.bodies.troupes.iter().any(|troupe| troupe.data().scatter_taps > 0)
+}
+
 /// Whether something on it is weighted.
 fn has_weighted(stage: &Stage, take: &Take<'_>) -> bool {
     let is_floor = matches!(take.shown, Shown::Floor(_));
@@ -494,15 +545,16 @@ fn frame_group(
     gpu: &Gpu,
     layouts: &Layouts,
     (uniform, environments, environment): (&wgpu::Buffer, &Environments, &EnvironmentMap),
-    read: &PrepassTargets,
+    [depth, surfaces, scattered]: &ReadByColor,
 ) -> wgpu::BindGroup {
     let resources = [
         uniform.as_entire_binding(),
-        BindingResource::TextureView(&read.depth_view),
-        BindingResource::TextureView(&read.surfaces_view),
+        BindingResource::TextureView(depth),
+        BindingResource::TextureView(surfaces),
         BindingResource::TextureView(&environment.cube),
         BindingResource::Sampler(&environments.sampler),
         environments.split_sum.as_entire_binding(),
+        BindingResource::TextureView(scattered),
     ];
     bind::group(gpu, "frame", &layouts.frame, resources)
 }

@@ -13,6 +13,7 @@ use crate::{
     hair::{self, HairStrips, NoStrips},
     material::{AlphaMode, Blending, Material},
     scene::{FirstPerson, HumanBone, Influences, MorphTarget, Primitive, Role, Scene, Skin},
+    skin,
 };
 
 /// What turns a [`Pose`] into matrices and weights, in the order of the GPU buffers.
@@ -155,6 +156,9 @@ impl Geometry {
         let mask = |p: &Primitive| scene.materials.get(p.material).is_some_and(|m| m.drawn_mode() == AlphaMode::Mask);
         parts.sort_by_key(|(id, _, p, ..)| (blend(p), mask(p), if blend(p) { 0 } else { p.material }, *id));
         let mut materials_by_id = vec![0; parts.len()];
+        let is_skin = |p: &Primitive| scene.materials.get(p.material).is_some_and(|m| m.skin.is_some());
+        let skin: Vec<_> = parts.iter().filter(|part| is_skin(part.2)).map(|part| (part.2, part.4)).collect();
+        let mut skin = skin::measured(&skin).into_iter();
         for (id, node, primitive, group, rest_matrix) in &parts {
             let sight = sight(scene, &in_head, *node);
             let material = scene.materials.get(primitive.material);
@@ -169,7 +173,12 @@ impl Geometry {
             });
             let mesh = scene.nodes[*node].mesh.map_or("", |mesh| &scene.meshes[mesh].name);
             let arranged = material.and_then(|m| arranged(m, primitive, mesh, strips));
-            geometry.push(*id, primitive, (strands.as_deref(), arranged.as_ref()), *group, *rest_matrix, &sight);
+            let prepared = Prepared {
+                strands: strands.as_deref(),
+                strips: arranged.as_ref(),
+                skin: if is_skin(primitive) { skin.next() } else { None },
+            };
+            geometry.push(*id, primitive, &prepared, *group, *rest_matrix, &sight);
             materials_by_id[*id as usize] = primitive.material;
         }
         let moved = geometry.moved_by_joint.iter();
@@ -182,16 +191,16 @@ impl Geometry {
         geometry
     }
 
-    /// `strands` take the place of tangents, `strips` change the order of triangles.
     fn push(
         &mut self,
         id: u32,
         primitive: &Primitive,
-        (strands, strips): (Option<&[[f32; 4]]>, Option<&Arranged>),
+        prepared: &Prepared<'_>,
         mut group: DeformGroup,
         rest: Mat4,
         sight: &Sight,
     ) {
+        let Prepared { strands, strips, skin } = prepared;
         let tangents = strands.unwrap_or(&primitive.tangents);
         let first = self.source.len() as u32;
         group.first_vertex = first;
@@ -216,7 +225,8 @@ impl Geometry {
             let bare = strips.map_or([255; 4], |s| s.colors[v]);
             let color = primitive.colors.get(v).map_or(bare, |c| c.map(|x| (x.clamp(0.0, 1.0) * 255.0).round() as u8));
             let part = id | strips.map_or(0, |s| s.numbers[v] << 16);
-            self.static_vertices.push(StaticVertex { uv: [u0, v0, u1, v1], color, part });
+            let skin = skin.as_ref().and_then(|s| s.get(v)).copied().unwrap_or_default().map(|x| half::f16::from_f32(x).to_bits());
+            self.static_vertices.push(StaticVertex { uv: [u0, v0, u1, v1], color, part, skin });
             self.vertex_refs.push([group_index, self.morphs.len() as u32]);
             morphs.take(v as u32, &mut self.morphs);
             let world = rest.transform_point3(Vec3::from(position));
@@ -279,6 +289,16 @@ impl Geometry {
             weight_count: self.weight_count,
         }
     }
+}
+
+/// What the material of a part has made of it.
+struct Prepared<'a> {
+    /// In the place of tangents.
+    strands: Option<&'a [[f32; 4]]>,
+    /// Another order of triangles.
+    strips: Option<&'a Arranged>,
+    /// Curvature and thickness.
+    skin: Option<Vec<[f32; 2]>>,
 }
 
 /// Nodes that are the head or hang on it; empty without a character.

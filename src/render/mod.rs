@@ -21,6 +21,7 @@ pub(crate) mod material;
 pub(crate) mod numbers;
 pub(crate) mod pass;
 pub(crate) mod readback;
+mod scattering;
 pub mod shaders;
 mod take;
 mod target;
@@ -323,6 +324,7 @@ impl Layouts {
             read(bind::filtered(D::Cube)),
             read(Sampler(SamplerBindingType::Filtering)),
             read(bind::uniform(None)),
+            read(bind::texture(T::Float { filterable: false }, D::D2)),
         ];
         let numbers = bind::texture(T::Float { filterable: false }, D::D2Array);
         let character = [

@@ -11,6 +11,7 @@ use rayon::prelude::*;
 use super::pass::fibre::{self, FibreInputs};
 use super::targets::array_view;
 use super::variants::Variants;
+use crate::skin::{TABLE_SIZE, skin_table};
 use crate::{
     Error, Gpu, Result,
     color::{linear_from_srgb, srgb_from_linear},
@@ -99,9 +100,17 @@ impl TextureSet {
     pub fn generate(&mut self, variants: &Variants, wanted: impl IntoIterator<Item = Generated>) -> Result<()> {
         for generated in wanted {
             if let Entry::Vacant(place) = self.generated.entry(generated) {
-                let Generated::Fibre { width, ior, is_gaussian } = generated;
-                let inputs = FibreInputs { width: f32::from_bits(width), ior: f32::from_bits(ior), is_gaussian };
-                place.insert(fibre::table(variants, inputs)?);
+                let made = match generated {
+                    Generated::Fibre { width, ior, is_gaussian } => {
+                        let (width, ior) = (f32::from_bits(width), f32::from_bits(ior));
+                        fibre::table(variants, FibreInputs { width, ior, is_gaussian })?
+                    }
+                    Generated::Skin(of) => {
+                        let (profile, speculars) = of.numbers();
+                        half_floats(&variants.gpu, "skin", TABLE_SIZE, &skin_table(&profile, &speculars))
+                    }
+                };
+                place.insert(made);
             }
         }
         Ok(())
@@ -125,6 +134,25 @@ impl TextureSet {
         let (view, sampler) = found.unwrap_or((&self.white, &self.default_sampler));
         (view, if read.clamped { &self.clamped_sampler } else { sampler })
     }
+}
+
+/// A table of half floats.
+fn half_floats(gpu: &Gpu, label: &str, [width, height]: [u32; 2], texels: &[[f32; 4]]) -> wgpu::TextureView {
+    let size = wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
+    let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some(label),
+        size,
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: wgpu::TextureFormat::Rgba16Float,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+        view_formats: &[],
+    });
+    let bytes: Vec<u8> = texels.iter().flatten().flat_map(|c| half::f16::from_f32(*c).to_le_bytes()).collect();
+    let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(width * 8), rows_per_image: None };
+    gpu.queue.write_texture(texture.as_image_copy(), &bytes, layout, size);
+    texture.create_view(&wgpu::TextureViewDescriptor::default())
 }
 
 /// Threshold maps of a face as one texture array; texels outside its border repeat it.

@@ -159,6 +159,8 @@ impl Renderer {
         let sight = Sight { hdr: scene.post.is_some(), environment, ..Sight::default() };
         let requests = draw_list::requests(scene, &draws, &looks.compositions, &Picture::new(&gpu, self.output, sight));
         let has_prepass = requests.iter().any(|p| p.prepass.is_some());
+        let scattering = draws.iter().filter(|d| looks.compositions[d.material].is_on("skin_screen_space"));
+        let scatter_taps = scattering.filter_map(|d| Some(looks.sources[d.material].skin?.taps as usize)).max().unwrap_or(0);
         let shells = scene.materials.iter().filter_map(|m| m.fluff).map(|f| f.shells.min(MAX_SHELLS)).max();
         let data = CharacterData {
             made_by: (gpu.clone(), self.output),
@@ -179,12 +181,14 @@ impl Renderer {
             world_shadows: OnceLock::new(),
             glows: OnceLock::new(),
             velocities: OnceLock::new(),
+            irradiances: Mutex::default(),
             draws,
             bangs,
             shadow,
             has_prepass,
             has_inner_lines,
             cuts_move,
+            scatter_taps,
             shells: shells.unwrap_or(0),
             rig: geometry.rig,
             part_materials: geometry.part_materials,

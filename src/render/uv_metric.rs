@@ -2,6 +2,7 @@
 
 use glam::{Vec2, Vec3};
 
+use crate::material::Material;
 use crate::scene::Scene;
 
 /// Metres along a unit of u and of v on the surfaces of each material at rest: the mean over the texture, so that linings and
@@ -9,7 +10,7 @@ use crate::scene::Scene;
 /// measured.
 pub(crate) fn metres_per_uv(scene: &Scene) -> Vec<[f32; 2]> {
     let mut sums = vec![[0.0f64; 3]; scene.materials.len()];
-    let asks = |material: usize| scene.materials.get(material).is_some_and(|m| m.dissolve.is_some() || m.is_hashed());
+    let asks = |material: usize| scene.materials.get(material).is_some_and(measures);
     if (0..sums.len()).any(asks) {
         let rest = scene.rest_world_from_nodes();
         for (node, mesh) in scene.mesh_nodes() {
@@ -46,6 +47,11 @@ pub(crate) fn metres_per_uv(scene: &Scene) -> Vec<[f32; 2]> {
         }
     };
     sums.into_iter().map(mean).collect()
+}
+
+/// Whether a material is measured.
+fn measures(material: &Material) -> bool {
+    material.dissolve.is_some() || material.is_hashed() || material.skin.is_some()
 }
 
 #[cfg(test)]

@@ -10,5 +10,6 @@ mod import;
 mod import_models;
 mod import_mutate;
 mod look_file;
+mod profile_file;
 mod sdf;
 mod shaders;

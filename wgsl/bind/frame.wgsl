@@ -85,6 +85,10 @@ fn distance_at(pixel: vec2i) -> f32 {
 @group(0) @binding(4) var environment_sampler: sampler;
 @group(0) @binding(5) var<uniform> split_sum: SplitSum;
 
+// Light that has scattered in skin, over pi, of which the mean of two by two pixels is meant; and the distance along the view,
+// metres, 0 where there is none.
+@group(0) @binding(6) var frame_scattered: texture_2d<f32>;
+
 // Normal and part of the nearest surface of each pixel, one sample a pixel; only where a material has inner lines.
 @group(0) @binding(2) var frame_surfaces: texture_2d<u32>;
 

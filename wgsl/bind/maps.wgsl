@@ -2,7 +2,7 @@
 import package::bind::actor::actors;
 import package::bind::vertex::Vertex;
 import package::lib::bangs::{BANGS_BLOCK, BANGS_TAPS, bangs_weight, esm_taps};
-import package::lib::shadow::{shadow_moved, shadow_place, shadow_share};
+import package::lib::shadow::{shadow_filtered, shadow_moved, shadow_place, shadow_share};
 
 @group(1) @binding(2) var bangs_map: texture_2d_array<f32>;
 // Nearest depth round each block of it.
@@ -49,8 +49,25 @@ fn shadow_lit(actor: u32, at: vec4f, wanted: bool) -> f32 {
     let layer = i32(round(at.w));
     let spread = actors[actor].shadow_spread;
     let is_outside = any(at.xy <= vec2f(0.0)) || any(at.xy >= vec2f(1.0)) || layer < 0;
-    let lit = shadow_share(shadow_map, shadow_sampler, at.xyz, layer, spread, wanted && !is_outside);
+    @if(skin_penumbra) let lit = shadow_filtered(shadow_map, shadow_sampler, at.xyz, layer, spread, wanted && !is_outside);
+    @if(!skin_penumbra) let lit = shadow_share(shadow_map, shadow_sampler, at.xyz, layer, spread, wanted && !is_outside);
     return min(lit, actors[actor].key_light);
+}
+
+// How far behind the nearest surface a place of its shadow map lies, metres, between four texels.
+fn shadow_depth(actor: u32, at: vec4f) -> f32 {
+    let layer = i32(round(at.w));
+    let size = vec2i(textureDimensions(shadow_map));
+    let p = at.xy * vec2f(size) - 0.5;
+    let f = fract(p);
+    var four: vec4f;
+    for (var i = 0; i < 4; i++) {
+        let texel = clamp(vec2i(floor(p)) + vec2i(i % 2, i / 2), vec2i(0), size - 1);
+        four[i] = max(at.z - textureLoad(shadow_map, texel, max(layer, 0), 0), 0.0);
+    }
+    let is_outside = any(at.xy <= vec2f(0.0)) || any(at.xy >= vec2f(1.0)) || layer < 0;
+    let mean = mix(mix(four.x, four.y, f.x), mix(four.z, four.w, f.x), f.y);
+    return select(mean / actors[actor].shadow_scale, 0.0, is_outside);
 }
 
 // How far light has come through a character to a place of its shadow map, metres: the mean of four by four places over twice

@@ -35,6 +35,8 @@ struct Varying {
     @if(part || channel_strips || channel_strip_order) @location(12) @interpolate(flat) part: u32,
     // Depth in a map that is drawn from a light.
     @if(depth) @location(13) depth: f32,
+    // Of skin in pictures: curvature, 1/m, and thickness, m.
+    @if(skin_vertex && !depth) @location(13) skin: vec2f,
     @if(actor) @location(14) @interpolate(flat) actor: u32,
     // Where it was in the last picture: x, y and w of the clip position.
     @if(before) @location(15) before: vec3f,
@@ -57,6 +59,7 @@ fn with_attributes(v: Vertex, given: Varying) -> Varying {
     @if(uv) out.uv = v.uv;
     @if(vertex_color || strips) out.color = v.color;
     @if(actor) out.actor = v.actor;
+    @if(skin_vertex && !depth) out.skin = v.skin;
     return out;
 }
 

@@ -15,6 +15,8 @@ struct VertexInput {
     @location(4) world_row_y: vec4f,
     @location(5) world_row_z: vec4f,
     @location(6) actor: vec3u,
+    // Curvature of skin, 1/m, and its thickness, m; character space.
+    @if(skin_vertex) @location(7) skin: vec2f,
 }
 
 struct Vertex {
@@ -32,14 +34,28 @@ struct Vertex {
     actor: u32,
     // The number by the pass.
     extra: u32,
+    // Curvature, 1/m, and thickness, m, in the world.
+    @if(skin_vertex) skin: vec2f,
 }
 
 fn vertex_of(in: VertexInput) -> Vertex {
     let at = deformed[in.actor.y + in.index];
-    return Vertex(
-        vec3f(at.x, at.y, at.z), vec3u(at.normal, at.tangent, at.outline_normal), in.uv, in.color, in.part,
-        in.world_row_x, in.world_row_y, in.world_row_z, in.actor.x, in.actor.z
-    );
+    var v: Vertex;
+    v.position = vec3f(at.x, at.y, at.z);
+    v.frame = vec3u(at.normal, at.tangent, at.outline_normal);
+    v.uv = in.uv;
+    v.color = in.color;
+    v.part = in.part;
+    v.world_row_x = in.world_row_x;
+    v.world_row_y = in.world_row_y;
+    v.world_row_z = in.world_row_z;
+    v.actor = in.actor.x;
+    v.extra = in.actor.z;
+    @if(skin_vertex) {
+        let scale = length(in.world_row_x.xyz);
+        v.skin = in.skin * vec2f(1.0 / max(scale, 1e-6), scale);
+    }
+    return v;
 }
 
 fn world_position(v: Vertex, position: vec3f) -> vec3f {

@@ -42,9 +42,16 @@ fn shadow_moved(normal: vec3f, right: vec3f, up: vec3f, to_light: vec3f) -> vec3
     return shadow_place(moved, right, up, to_light, 1.0) - 0.5;
 }
 
-// Share of light at a place of a layer, with a drawn edge: the mean over a square `spread` wide (share of the map's width, 3 to
-// 5 texels). What the caller does not need (`wanted`) is lit.
+// Share of light at a place of a layer, with a drawn edge.
 fn shadow_share(
+    map: texture_depth_2d_array, map_sampler: sampler_comparison, at: vec3f, layer: i32, spread: f32, wanted: bool
+) -> f32 {
+    return shadow_edge(shadow_filtered(map, map_sampler, at, layer, spread, wanted));
+}
+
+// Share of light at a place of a layer: the mean over a square `spread` wide (share of the map's width, 3 to 5 texels). What the
+// caller does not need (`wanted`) is lit.
+fn shadow_filtered(
     map: texture_depth_2d_array, map_sampler: sampler_comparison, at: vec3f, layer: i32, spread: f32, wanted: bool
 ) -> f32 {
     let size = vec2f(textureDimensions(map));
@@ -72,7 +79,7 @@ fn shadow_share(
         let four = textureGatherCompare(map, map_sampler, (first + place + 1.0) / size, layer, at.z);
         lit += shadow_weighted(four, place - 2.0 - f, half);
     }
-    return select(shadow_edge(lit / (4.0 * half * half)), texels / 16.0, agree);
+    return select(lit / (4.0 * half * half), texels / 16.0, agree);
 }
 
 // Four texels, the first of them `d` texels from the middle, by the share of each that lies in the square.

@@ -25,6 +25,18 @@ fn texture_frame(n: vec3f, position: vec3f, uv: vec2f) -> vec4f {
     return vec4f(tangent, select(1.0, -1.0, dot(cross(n, tangent), b) > 0.0));
 }
 
+// The normal without bumps of a mm and less, `bent` being by all of them; metres along u and v.
+fn normal_map_smooth(bent: Surface, metres_per_uv: vec2f) -> vec3f {
+    let texels = vec2f(textureDimensions(normal_map_texture));
+    let texel_mm = 1000.0 * max(metres_per_uv.x / texels.x, metres_per_uv.y / texels.y);
+    let level = max(log2(1.0 / max(texel_mm, 1e-6)), 0.0);
+    let normal = normalize(bent.at.normal);
+    let at = texture_uv(bent.uv, material.normal_map.texture_uv);
+    let found = textureSampleLevel(normal_map_texture, normal_map_texture_sampler, at, level).xyz;
+    let geometric = select(normal, -normal, dot(normal, bent.view) < 0.0);
+    return normal_from_map(found, material.normal_map.scale, geometric, bent.tangent, bent.at.tangent.w);
+}
+
 fn normal_map_bend(surface: Surface) -> Surface {
     var s = surface;
     let bent = textureSample(

@@ -7,6 +7,7 @@ mod esm;
 mod face;
 mod hair;
 mod mtoon;
+mod skin;
 mod stylized;
 mod weighted;
 

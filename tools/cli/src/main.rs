@@ -13,6 +13,7 @@ mod inspect;
 mod look;
 mod looks;
 mod output;
+mod profile;
 mod reference;
 mod render;
 mod sdf;
@@ -67,6 +68,8 @@ enum Command {
     Look(look::Args),
     /// List what a look file can set: every section with its fields, ranges and defaults. Needs no GPU.
     Looks(looks::Args),
+    /// Show diffusion profiles: how light scatters in skin, wax, jade. Needs no GPU.
+    Profile(profile::Args),
     /// Author threshold maps of painted face shadows.
     Sdf(sdf::Args),
     /// Paint maps for looks by rule. Needs no GPU.
@@ -126,6 +129,7 @@ fn run(command: Command) -> Result<(), Failure> {
         Command::Gallery(args) => gallery::run(&args),
         Command::Look(args) => look::run(&args),
         Command::Looks(args) => looks::run(&args),
+        Command::Profile(args) => profile::run(&args),
         Command::Sdf(args) => sdf::run(&args),
         Command::Texture(args) => texture::run(&args),
         Command::Inspect(args) => inspect::run(&args),

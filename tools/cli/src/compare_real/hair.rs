@@ -9,15 +9,8 @@ use hikage::material::{
 use hikage::scene::{Mesh, Node, Primitive, Scene, SelfShadow};
 use serde::Deserialize;
 
-use super::Reference;
 use super::strands::Strands;
-
-/// What is drawn of a reference.
-pub(super) struct Shot {
-    pub(super) scenes: Vec<Scene>,
-    /// How many times as large.
-    pub(super) scale: u32,
-}
+use super::{Reference, Shot};
 
 /// The material of a reference.
 #[derive(Deserialize)]

@@ -5,15 +5,19 @@
 
 mod hair;
 mod scorer;
+mod skin;
 mod strands;
 
+use std::collections::HashSet;
 use std::fs::File;
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 
 use hikage::color::LinearRgb;
+use hikage::material::SkinDiffuse;
 use hikage::picture::read_linear;
 use hikage::scene::{Ambient, Lights, Scene};
+use hikage::skin::Transmission;
 use hikage::{Actor, Background, Gpu, Output, Renderer, Stage, View, wgpu};
 use npyz::WriterBuilder as _;
 use serde::{Deserialize, Serialize};
@@ -30,6 +34,7 @@ use crate::spinner::Spinner;
 Examples:
   hikage compare-real hair ../shared/real
   hikage compare-real hair ../shared/real --only 'hair_arch_*' --json
+  hikage compare-real skin ../shared/real --only 'skin_close_*' --method screen-space
 
 The scorer is Python and needs numpy, scipy and pillow (Debian: apt install python3-numpy python3-scipy python3-pil).")]
 pub(crate) struct Args {
@@ -41,6 +46,12 @@ pub(crate) struct Args {
     /// Only references whose name fits; * stands for anything.
     #[arg(long, value_name = "GLOB")]
     only: Option<String>,
+    /// Skin by this method alone: lambert, wrapped, pre-integrated, screen-space or texture-space.
+    #[arg(long, value_name = "NAME", value_parser = word::<SkinDiffuse>)]
+    method: Option<SkinDiffuse>,
+    /// How light comes through skin: thin or thick [default: thick for ears and wedges].
+    #[arg(long, value_name = "NAME", value_parser = word::<Transmission>)]
+    transmission: Option<Transmission>,
     /// Where our pictures are written [default: a folder hikage-compare-real among temporary files].
     #[arg(long, value_name = "OUTDIR")]
     write: Option<PathBuf>,
@@ -57,6 +68,24 @@ pub(crate) struct Args {
 enum What {
     /// Scenes hair_arch, hair_sphere and those of hairstyles that have cards.
     Hair,
+    /// Scenes skin_head, skin_close, skin_sphere, skin_ear and skin_wedge, by every method.
+    Skin,
+}
+
+/// What is drawn of a reference.
+struct Shot {
+    scenes: Vec<Scene>,
+    /// How many times as large.
+    scale: u32,
+}
+
+/// A picture of ours and the reference that it is compared with.
+struct Pair {
+    reference: String,
+    /// Of skin.
+    method: Option<SkinDiffuse>,
+    /// Name of the picture, which other references may share.
+    picture: String,
 }
 
 /// The part of a reference's description that all kinds have.
@@ -81,6 +110,8 @@ struct Bounces {
 #[derive(Serialize)]
 struct Row {
     name: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    method: Option<SkinDiffuse>,
     figures: serde_json::Value,
 }
 
@@ -92,59 +123,112 @@ struct Outcome {
 }
 
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
-    let What::Hair = args.what;
     let root = args.dir.join("reference");
-    let names = names(&root, args.only.as_deref().unwrap_or("*"))?;
+    let pairs = pairs(&root, args)?;
     let out = args.write.clone().unwrap_or_else(|| std::env::temp_dir().join("hikage-compare-real"));
     make_folder(&out)?;
     let scorer = scorer::Scorer::find(&args.dir)?;
     let spinner = Spinner::new();
     let gpu = setup::gpu(args.adapter.as_deref())?;
     let mut outcome = Outcome { adapter: gpu.info().name.clone(), rows: Vec::new(), failed: Vec::new() };
-    for (index, name) in names.iter().enumerate() {
-        spinner.step(format!("{} of {}: {name}", index + 1, names.len()));
-        let compared = || -> Result<serde_json::Value, Failure> {
-            let file = root.join(name).with_extension("json");
-            let fail = |what: String| Failure::input(format!("{}: {what}", file.display()));
-            let of: Reference = serde_json::from_slice(&setup::read_small(&file)?).map_err(|e| fail(e.to_string()))?;
-            let picture = out.join(name).with_extension("npy");
-            let hair::Shot { scenes, scale } = hair::shot(&args.dir, &of).map_err(fail)?;
-            let texels = drawn(&gpu, &of, scenes, scale)?;
-            write_npy(&picture, [of.width, of.height], &texels)?;
-            scorer.hair(&root.join(name), &picture)
+    let mut made = HashSet::new();
+    for (index, pair) in pairs.iter().enumerate() {
+        let Pair { reference: name, method, .. } = pair;
+        let title = title(name, *method);
+        spinner.step(format!("{} of {}: {title}", index + 1, pairs.len()));
+        let mut compared = || -> Result<serde_json::Value, Failure> {
+            let picture = out.join(format!("{}.npy", pair.picture));
+            if !made.contains(&pair.picture) {
+                let file = root.join(format!("{name}.json"));
+                let fail = |what: String| Failure::input(format!("{}: {what}", file.display()));
+                let of: Reference =
+                    serde_json::from_slice(&setup::read_small(&file)?).map_err(|e| fail(e.to_string()))?;
+                let Shot { scenes, scale } = pair.shot(args, &of).map_err(fail)?;
+                let texels = drawn(&gpu, &of, scenes, scale)?;
+                write_npy(&picture, [of.width, of.height], &texels)?;
+                made.insert(&pair.picture);
+            }
+            match skin::Name::of(name) {
+                Some(skin) => {
+                    let lambert = root.join(skin.lambert());
+                    let is_there = root.join(format!("{}.npz", skin.lambert())).is_file();
+                    scorer.skin(&root.join(name), &picture, is_there.then_some(&lambert))
+                }
+                None => scorer.hair(&root.join(name), &picture),
+            }
         };
         match compared() {
-            Ok(figures) => outcome.rows.push(Row { name: name.clone(), figures }),
-            Err(failure) => outcome.failed.push((name.clone(), failure.to_string())),
+            Ok(figures) => outcome.rows.push(Row { name: name.clone(), method: *method, figures }),
+            Err(failure) => outcome.failed.push((title, failure.to_string())),
         }
     }
     drop(spinner);
     if args.json {
         print_json(&outcome)?;
     } else {
-        let lines = outcome.rows.iter().map(|row| scorer::line(&row.name, &row.figures));
+        let lines = outcome.rows.iter().map(|row| match row.method {
+            Some(_) => scorer::skin_line(&title(&row.name, row.method), &row.figures),
+            None => scorer::hair_line(&row.name, &row.figures),
+        });
         let failed = outcome.failed.iter().map(|(name, why)| format!("{name}: {why}\n"));
         print(&lines.chain(failed).collect::<String>())?;
     }
     match outcome.failed.len() {
         0 => Ok(()),
-        n => Err(Failure::input(format!("{n} of {} references could not be compared", names.len()))),
+        n => Err(Failure::input(format!("{n} of {} pictures could not be compared", pairs.len()))),
     }
 }
 
-/// Names of the references that are asked for, sorted.
-fn names(root: &Path, glob: &str) -> Result<Vec<String>, Failure> {
+/// A reference and a method.
+fn title(reference: &str, method: Option<SkinDiffuse>) -> String {
+    reference.to_owned() + &method.map_or(String::new(), |m| format!(" {}", skin::word(m)))
+}
+
+impl Pair {
+    fn shot(&self, args: &Args, of: &Reference) -> Result<Shot, String> {
+        match (skin::Name::of(&self.reference), self.method) {
+            (Some(name), Some(method)) => skin::shot(&args.dir, of, &name, method, args.transmission),
+            _ => hair::shot(&args.dir, of),
+        }
+    }
+}
+
+/// What is asked for, sorted by reference.
+fn pairs(root: &Path, args: &Args) -> Result<Vec<Pair>, Failure> {
+    let glob = args.only.as_deref().unwrap_or("*");
     let listed = std::fs::read_dir(root).map_err(|e| Failure::input(format!("{}: {e}", root.display())))?;
     let mut names: Vec<String> = listed
         .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
         .filter_map(|file| Some(file.strip_suffix(".npz")?.to_owned()))
-        .filter(|name| hair::is_scene(name) && fits(glob, name))
+        .filter(|name| fits(glob, name))
         .collect();
     names.sort();
-    if names.is_empty() {
-        return Err(Failure::input(format!("{}: has no reference of hair whose name fits {glob:?}", root.display())));
+    let (what, pairs): (&str, Vec<Pair>) = match args.what {
+        What::Hair => {
+            let pair = |name: String| Pair { picture: name.clone(), reference: name, method: None };
+            ("hair", names.into_iter().filter(|name| hair::is_scene(name)).map(pair).collect())
+        }
+        What::Skin => {
+            let is_asked = |method: &SkinDiffuse| args.method.is_none_or(|asked| asked == *method);
+            let of = |name: &String| {
+                let skin = skin::Name::of(name)?;
+                let methods = skin::METHODS.into_iter().filter(is_asked).filter(|method| skin.is_for(*method));
+                let pair =
+                    |method| Pair { picture: skin.picture(method), reference: name.clone(), method: Some(method) };
+                Some(methods.map(pair).collect::<Vec<_>>())
+            };
+            ("skin", names.iter().filter_map(of).flatten().collect())
+        }
+    };
+    if pairs.is_empty() {
+        return Err(Failure::input(format!("{}: has no reference of {what} whose name fits {glob:?}", root.display())));
     }
-    Ok(names)
+    Ok(pairs)
+}
+
+/// A word as look files write it.
+fn word<T: serde::de::DeserializeOwned>(text: &str) -> Result<T, String> {
+    serde_json::from_value(text.into()).map_err(|e| e.to_string())
 }
 
 /// Whether a name fits a pattern in which `*` stands for anything.

@@ -1,5 +1,6 @@
 //! The scorer of a folder of references: a Python program that prints figures as JSON.
 
+use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -37,11 +38,26 @@ impl Scorer {
 
     /// Figures of a picture of hair.
     pub(super) fn hair(&self, reference: &Path, picture: &Path) -> Result<Value, Failure> {
+        self.figures(&["hair".as_ref(), reference.as_os_str(), picture.as_os_str()])
+    }
+
+    /// Figures of a picture of skin; `lambert`, the same view without scattering, shows where light ends.
+    pub(super) fn skin(&self, reference: &Path, picture: &Path, lambert: Option<&Path>) -> Result<Value, Failure> {
+        let lambert = lambert.map(|path| {
+            let mut option = OsString::from("--lambert=");
+            option.push(path);
+            option
+        });
+        let mut args = vec!["skin".as_ref(), reference.as_os_str(), picture.as_os_str()];
+        args.extend(lambert.as_deref());
+        self.figures(&args)
+    }
+
+    fn figures(&self, args: &[&OsStr]) -> Result<Value, Failure> {
         let done = Command::new(self.python)
             .arg("-B")
             .arg(&self.program)
-            .arg("hair")
-            .args([reference, picture])
+            .args(args)
             .output()
             .map_err(|e| Failure::input(format!("{}: {e}", self.python)))?;
         if !done.status.success() {
@@ -49,14 +65,26 @@ impl Scorer {
             let last = text.lines().last().unwrap_or("no figures").to_owned();
             return Err(Failure::input(format!("{}: {last}", self.program.display())));
         }
-        serde_json::from_slice(&done.stdout).map_err(|e| Failure::input(format!("{}: {e}", self.program.display())))
+        // Means of nothing and shares of no light, which JSON has no words for.
+        let mut text = String::from_utf8_lossy(&done.stdout).into_owned();
+        for word in ["NaN", "-Infinity", "Infinity"] {
+            text = text.replace(word, "null");
+        }
+        serde_json::from_str(&text).map_err(|e| Failure::input(format!("{}: {e}", self.program.display())))
     }
 }
 
-/// The figures of a scene in a line.
-pub(super) fn line(name: &str, figures: &Value) -> String {
-    let number = |v: &Value| v.as_f64().map_or("-".to_owned(), |x| format!("{x:.3}"));
-    let list = |v: &Value| v.as_array().into_iter().flatten().map(number).collect::<Vec<_>>().join(" ");
+/// A figure as lines show it.
+fn number(v: &Value) -> String {
+    v.as_f64().map_or("-".to_owned(), |x| format!("{x:.3}"))
+}
+
+fn list(v: &Value) -> String {
+    v.as_array().into_iter().flatten().map(number).collect::<Vec<_>>().join(" ")
+}
+
+/// The figures of a picture of hair in a line.
+pub(super) fn hair_line(name: &str, figures: &Value) -> String {
     let mut text = format!(
         "{name}: energy {}  dE mean {} p95 {}  chroma {}",
         list(&figures["energyRatioCandOverRef"]),
@@ -70,6 +98,25 @@ pub(super) fn line(name: &str, figures: &Value) -> String {
         if let (Some(middle), Some(width)) = (step("centroidTopHalfDeg"), step("fwhmDeg")) {
             text += &format!("  {color} {middle:+.2} deg, width {width:+.2}");
         }
+    }
+    text + "\n"
+}
+
+/// The figures of a picture of skin in a line.
+pub(super) fn skin_line(name: &str, figures: &Value) -> String {
+    let mut text = format!("{name}: scale {}  rmse {}", list(&figures["scale"]), number(&figures["rmse"]));
+    let edge = &figures["terminator"];
+    if edge.is_object() {
+        let bleed = |whose: &str| number(&edge["bleedIntegralMm"][whose][0]);
+        text += &format!("  edge rmse {}", edge["profileRmse"].as_f64().map_or("-".to_owned(), |x| format!("{x:.5}")));
+        text += &format!("  red bleed {} of {} mm", bleed("cand"), bleed("ref"));
+    }
+    if figures["band6mm"].is_object() {
+        text += &format!("  band dE p95 {}", number(&figures["band6mm"]["dE2000p95"]));
+    }
+    if figures["sphere"].is_object() {
+        let sphere = number(&figures["sphere"]["profileRmse"]);
+        text += &format!("  sphere dE p95 {}, rmse {sphere}", number(&figures["dE2000p95"]));
     }
     text + "\n"
 }

@@ -203,6 +203,36 @@ fn inspect_tells_what_a_model_an_image_and_a_shader_hold() {
     assert!(succeeds(&dir, &["inspect", "s.wgsl"]).contains("main"));
 }
 
+#[test]
+fn profiles_are_listed_shown_and_drawn() {
+    let dir = folder("profile");
+    let list = succeeds(&dir, &["profile", "list"]);
+    for name in ["skin-light", "skin-dark", "jade", "wax", "milk", "marble"] {
+        assert!(list.contains(name), "{name} in {list}");
+    }
+    let parsed = |text: String| serde_json::from_str::<serde_json::Value>(&text).expect("JSON");
+    assert_eq!(parsed(succeeds(&dir, &["profile", "list", "--json"])).as_array().map(Vec::len), Some(6));
+    fs::write(dir.join("ear.profile.toml"), "scattering_distance_mm = [1, 0.5, 0.25]\nior = 1.5").expect("file");
+    let text = succeeds(&dir, &["profile", "show", "ear.profile.toml", "-o", "ear.png"]);
+    assert!(text.starts_with("ear\n") && text.contains("1.00 0.500 0.250 mm") && text.contains("10.4 mm"), "{text}");
+    let picture = hikage::picture::read_png(dir.join("ear.png")).expect("a picture");
+    assert_eq!((picture.width, picture.height), (1200, 800));
+    let json = parsed(succeeds(&dir, &["profile", "show", "jade", "--json"]));
+    assert_eq!((&json["name"], &json["profile"]["ior"]), (&"jade".into(), &1.5.into()));
+
+    fs::write(dir.join("bad.profile.toml"), "scattering_distance_mm = [0, 1, 1]").expect("file");
+    for (name, words) in [
+        ("jaed", &["jaed", "jade", ".profile.toml"][..]),
+        ("none.profile.toml", &["none.profile.toml"]),
+        ("bad.profile.toml", &["bad.profile.toml", "scattering_distance_mm", "is 0"]),
+    ] {
+        let error = fails(&dir, &["profile", "show", name, "-o", "out.png"], 1);
+        assert!(words.iter().all(|w| error.contains(w)), "{error}");
+    }
+    fails(&dir, &["profile", "show", "jade", "-o", "out.jpg"], 2);
+    assert_eq!(files(&dir), ["bad.profile.toml", "ear.png", "ear.profile.toml", "triangle.gltf"]);
+}
+
 // From here on an adapter is needed.
 
 #[test]

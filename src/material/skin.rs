@@ -1,0 +1,193 @@
+//! Skin: light that scatters below its surface, and what is mirrored on it.
+
+use serde::{Deserialize, Serialize};
+
+use super::{AlphaMode, Generated, Options, Section, Shading, Surroundings, TextureRef, walk::plain_parts};
+use crate::render::layout::Block;
+use crate::skin::{DiffusionProfile, Speculars, Texturing, Transmission};
+
+/// How light that scatters is found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum SkinDiffuse {
+    /// Not at all: light leaves where it arrives.
+    Lambert,
+    /// Light that is wrapped round, without colour.
+    Wrapped,
+    /// By a table of curvature and angle (Penner 2011).
+    #[default]
+    PreIntegrated,
+    /// By spreading the light of the picture (Golubev 2018).
+    ScreenSpace,
+    /// By spreading light over the texture coordinates (d'Eon and Luebke 2007).
+    TextureSpace,
+}
+
+/// What is mirrored.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum SkinSpecular {
+    /// Blinn and Phong, normalised.
+    BlinnPhong,
+    /// Kelemen and Szirmay-Kalos 2001, with Beckmann's distribution.
+    Kelemen,
+    /// GGX with Smith's visibility.
+    Ggx,
+    /// Two lobes of GGX, a sharp and a wide one.
+    #[default]
+    DualGgx,
+}
+
+plain_parts!(SkinDiffuse, SkinSpecular);
+
+crate::section! {
+    /// Skin and what scatters light as it does, in the place of the toon shading or as far as wanted.
+    ///
+    /// Sources: Penner 2011; Jimenez et al. 2015; Golubev 2018; d'Eon and Luebke 2007; Ma et al. 2007; Christensen and Burley 2015.
+    #[derive(Copy)]
+    Skin = "skin" {
+        is_model: true,
+        channel: Some(("skin-irradiance", "Light that falls on skin, before it scatters.")),
+        more_channels: &[
+            ("skin-scattered", "The same after it has scattered."),
+            ("skin-specular", "What skin mirrors."),
+            ("skin-thickness", "Thickness of skin: white is 10 mm and more."),
+            ("skin-curvature", "Curvature of skin: white is 0.5/mm and more; blue where it is hollow."),
+            ("skin-profile", "Diffusion profiles of skin, a colour each."),
+        ],
+    }
+    {
+        /// How light that scatters is found: `lambert`, `wrapped`, `pre-integrated`, `screen-space` or `texture-space`.
+        diffuse: SkinDiffuse = SkinDiffuse::PreIntegrated;
+        /// 1 is lit skin, 0 the toon shading with its warm edge.
+        natural: f32 = 1.0, in 0.0..=1.0;
+        /// How light scatters in it.
+        profile: DiffusionProfile = DiffusionProfile::default(), part DiffusionProfile;
+        /// How far `wrapped` light comes round: 0 Lambert, 1 to the back.
+        wrap: f32 = 0.3, in 0.0..=1.0;
+        /// Whether that is as it is commonly written, which adds light.
+        wrap_as_written: bool = false;
+        /// Places that `screen-space` reads: 11 quick, 17 good, 40 best.
+        taps: u32 = 17, in 4..=40;
+        /// What is mirrored: `blinn-phong`, `kelemen`, `ggx` or `dual-ggx`.
+        specular: SkinSpecular = SkinSpecular::DualGgx;
+        /// Roughness; of two lobes their mean.
+        roughness: f32 = 0.45, in 0.05..=1.0;
+        /// Share of what is mirrored.
+        specular_strength: f32 = 1.0, in 0.0..=1.0;
+        /// What the roughness of the sharp and of the wide lobe is multiplied by.
+        lobes: [f32; 2] = [0.75, 1.3], in 0.05..=4.0;
+        /// Share of the sharp lobe.
+        lobe_mix: f32 = 0.85, in 0.0..=1.0;
+        /// Curvature in place of the mesh's, red, linear: 1 is 1/mm.
+        curvature_map: Option<TextureRef> = None, read LINEAR;
+        /// What curvature is multiplied by.
+        curvature_scale: f32 = 1.0, in 0.0..=10.0;
+        /// Thickness in place of the mesh's, red, linear: 0 and 1 stand for the profile's remap.
+        thickness_map: Option<TextureRef> = None, read LINEAR;
+        /// How far bumps of the normal map are softer in colours that scatter farther.
+        detail: f32 = 1.0, in 0.0..=1.0;
+        /// How far the edges of shadows scatter.
+        penumbra: f32 = 1.0, in 0.0..=1.0;
+        /// Share of light that comes through.
+        transmission: f32 = 1.0, in 0.0..=1.0;
+        /// Whether that follows a traced volume, in which more light comes through a slab than the profile says (red 1.3 times at
+        /// 1 mm, 3 times at 6 mm); round bodies, whose light leaves at their sides, lie between the two.
+        transmission_of_volume: bool = false;
+    }
+    presets {
+        /// Light skin.
+        skin_light {}
+        /// Dark skin.
+        skin_dark { profile: DiffusionProfile { scattering_distance_mm: [0.52, 0.2, 0.11], ..DiffusionProfile::default() } }
+    }
+}
+
+impl Section for Skin {
+    fn put(&self, gpu: &mut Block<'_>, of: &Surroundings<'_>) {
+        gpu.put("profile_number", number(&self.profile));
+        gpu.put("thickness_range_mm", self.profile.thickness_range_mm());
+        gpu.put("reach_mm", self.profile.max_radius_mm());
+        gpu.put("metres_per_uv", of.metres_per_uv);
+    }
+
+    fn options(&self, on: &mut Options, of: &Surroundings<'_>) {
+        let is_toon = matches!(of.material.shading, Shading::Toon(_));
+        on.set("skin_toon", is_toon && self.natural < 1.0);
+        // What is seen through is not in the picture of light on skin.
+        let is_seen_through = of.material.drawn_mode() == AlphaMode::Blend;
+        let name = match self.diffuse {
+            SkinDiffuse::Lambert => "skin_lambert",
+            SkinDiffuse::Wrapped => "skin_wrapped",
+            SkinDiffuse::ScreenSpace if !is_seen_through => "skin_screen_space",
+            _ => "skin_pre_integrated",
+        };
+        on.set(name, true);
+        on.set("skin_penumbra", name == "skin_pre_integrated" && self.penumbra > 0.0);
+        let name = match self.specular {
+            SkinSpecular::BlinnPhong => "skin_blinn_phong",
+            SkinSpecular::Kelemen => "skin_kelemen",
+            SkinSpecular::Ggx => "skin_ggx",
+            SkinSpecular::DualGgx => "skin_dual_ggx",
+        };
+        on.set(name, true);
+        on.set("skin_vertex", true);
+        on.set("skin_wrap_as_written", self.wrap_as_written);
+        on.set("skin_of_volume", self.transmission_of_volume);
+        on.set("skin_pre_scatter", self.profile.texturing == Texturing::PreAndPost);
+        on.set("skin_thick", self.profile.transmission == Transmission::Thick);
+    }
+
+    fn generated(&self) -> Option<(&'static str, Generated)> {
+        let of = SkinTable {
+            distances: self.profile.scattering_distance_mm.map(f32::to_bits),
+            ior: self.profile.ior.to_bits(),
+            specular: self.specular,
+            roughness: self.roughness.to_bits(),
+            lobes: self.lobes.map(f32::to_bits),
+            lobe_mix: self.lobe_mix.to_bits(),
+        };
+        Some(("table", Generated::Skin(of)))
+    }
+}
+
+/// Most that half floats count one by one.
+const MOST_NUMBERS: u32 = 2047;
+
+/// A number for skin of this profile, which tells it from other skin in the picture: 1 to 2047.
+fn number(profile: &DiffusionProfile) -> f32 {
+    let numbers = profile.scattering_distance_mm.into_iter().chain([profile.world_scale]);
+    // FNV-1a.
+    let hash = numbers.flat_map(f32::to_le_bytes).fold(0x811c_9dc5u32, |h, b| (h ^ u32::from(b)).wrapping_mul(0x0100_0193));
+    (1 + hash % MOST_NUMBERS) as f32
+}
+
+/// What the table of skin is made of; floats by their bits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct SkinTable {
+    distances: [u32; 3],
+    ior: u32,
+    specular: SkinSpecular,
+    roughness: u32,
+    lobes: [u32; 2],
+    lobe_mix: u32,
+}
+
+impl SkinTable {
+    /// Its numbers.
+    pub(crate) fn numbers(self) -> (DiffusionProfile, Speculars) {
+        let profile = DiffusionProfile {
+            scattering_distance_mm: self.distances.map(f32::from_bits),
+            ior: f32::from_bits(self.ior),
+            ..DiffusionProfile::default()
+        };
+        let speculars = Speculars {
+            model: self.specular,
+            roughness: f32::from_bits(self.roughness),
+            lobes: self.lobes.map(f32::from_bits),
+            lobe_mix: f32::from_bits(self.lobe_mix),
+            f0: profile.f0(),
+        };
+        (profile, speculars)
+    }
+}

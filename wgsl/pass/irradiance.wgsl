@@ -1,0 +1,35 @@
+// Light that falls on skin, and how far it goes there, for wgsl/pass/scatter.wgsl.
+import package::bind::frame::frame;
+import package::bind::surface::{framed, lit_by_lamps, surface_of};
+import package::bind::varying::{Varying, surface_varying};
+import package::bind::vertex::{VertexInput, vertex_of};
+import package::material::{material, stage_gone, stage_paint, stage_vanish};
+import package::model::skin::skin_irradiance;
+
+struct Irradiance {
+    // Over pi.
+    @location(0) light: vec4f,
+    // Scattering distance, mm in the scene.
+    @location(1) distance: vec4f,
+    // Distance along the view, metres, and the number of the profile with half the cosine of the view.
+    @location(2) place: vec2f,
+}
+
+@vertex
+fn vs_main(in: VertexInput) -> Varying {
+    return surface_varying(vertex_of(in));
+}
+
+@fragment
+fn fs_main(in: Varying, @builtin(front_facing) front_facing: bool) -> Irradiance {
+    stage_vanish(in);
+    if stage_gone(in) {
+        discard;
+    }
+    let s = stage_paint(lit_by_lamps(framed(surface_of(in, front_facing))));
+    let d = material.skin.profile_scattering_distance_mm / material.skin.profile_world_scale;
+    // Of the triangle: normal maps change no area.
+    let flat = abs(dot(normalize(in.normal), s.view));
+    let place = vec2f(frame.near / max(in.clip_position.z, 1e-12), material.skin.profile_number + 0.5 * saturate(flat));
+    return Irradiance(vec4f(skin_irradiance(s), 1.0), vec4f(d, 1.0), place);
+}
