@@ -3,7 +3,7 @@
 use super::anime::materials_of;
 use crate::color::LinearRgb;
 use crate::material::{
-    Alpha, AlphaMode, Blending, CastShadow, FibreModel, Hair, Material, Origin, Rim, Shading, Standard, Strips,
+    Alpha, AlphaMode, Blending, CastShadow, FibreModel, Hair, Material, Origin, Rim, Shading, Skin, Standard, Strips,
     Substance,
 };
 use crate::scene::{DirectionalLight, Environment, Lights, Post, Role, Scene, SelfShadow, ToneCurve};
@@ -66,8 +66,13 @@ fn rough(material: &mut Material, roughness: f32) {
     }
 }
 
+/// Light scatters in it; what a file says of its roughness stays.
 fn skin(material: &mut Material) {
-    rough(material, 0.55);
+    let roughness = match (&material.shading, material.origin) {
+        (Shading::Standard(surface), Origin::Pbr) => surface.roughness.clamp(0.3, 0.7),
+        _ => 0.5,
+    };
+    material.skin = Some(Skin { roughness, ..Skin::default() });
 }
 
 fn mouth(material: &mut Material) {

@@ -15,6 +15,7 @@ pub use about::{About, Encoding, Field, Inner, Kind, Preset, Read};
 pub use alpha::{Alpha, AlphaMode, Blending};
 pub use authored::{Authored, Substance};
 pub use own::{OwnSection, register};
+pub(crate) use section::skin_layer;
 pub use section::{Declared, Fields, Generated, Options, Section, Surroundings};
 pub use standard::Standard;
 pub use texture_ref::{TextureRef, UvTransform};
@@ -115,6 +116,11 @@ impl Material {
     /// Whether it is fire, which has neither a colour of its own nor light on it.
     pub(crate) fn burns(&self) -> bool {
         self.fire.is_some() && self.alpha.mode == AlphaMode::Blend
+    }
+
+    /// Whether light spreads in it over texture coordinates.
+    pub(crate) fn scatters_over_uv(&self) -> bool {
+        self.skin.is_some_and(|skin| skin.diffuse == SkinDiffuse::TextureSpace)
     }
 
     /// Whether noise cuts it.

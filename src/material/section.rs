@@ -3,8 +3,8 @@
 
 use std::fmt;
 
-use super::walk::ROOT;
 use super::skin::SkinTable;
+use super::walk::ROOT;
 use super::{About, Material, Part, Walk};
 use crate::motion::Driven;
 use crate::render::layout::Block;
@@ -20,6 +20,10 @@ pub struct Surroundings<'a> {
     pub face_maps: &'a [FaceMap],
     /// Size of the surface's texture coordinates, metres along u and v.
     pub metres_per_uv: [f32; 2],
+    /// Least texture coordinates on it, and how far the others go beyond them.
+    pub uv_box: [[f32; 2]; 2],
+    /// Its place among the materials of its scene whose light is spread over texture coordinates.
+    pub skin_layer: u32,
     /// What expressions change: that must be there even where it is off at rest.
     pub driven: &'a Driven,
     /// Whether characters cast shadows on themselves.
@@ -29,7 +33,15 @@ pub struct Surroundings<'a> {
 impl<'a> Surroundings<'a> {
     /// Those of a material without a scene.
     pub(crate) fn alone(material: &'a Material) -> Self {
-        Self { material, face_maps: &[], metres_per_uv: [1.0; 2], driven: Driven::NONE, self_shadow: false }
+        Self {
+            material,
+            face_maps: &[],
+            metres_per_uv: [1.0; 2],
+            uv_box: [[0.0; 2], [1.0; 2]],
+            skin_layer: 0,
+            driven: Driven::NONE,
+            self_shadow: false,
+        }
     }
 
     /// Those of every material of a scene.
@@ -37,15 +49,26 @@ impl<'a> Surroundings<'a> {
         scene: &'a Scene,
         driven: &'a [Driven],
         metres_per_uv: &'a [[f32; 2]],
+        uv_boxes: &'a [[[f32; 2]; 2]],
     ) -> impl Iterator<Item = Self> {
-        scene.materials.iter().zip(driven).zip(metres_per_uv).map(|((material, driven), metres_per_uv)| Self {
-            material,
-            face_maps: &scene.face_maps,
-            metres_per_uv: *metres_per_uv,
-            driven,
-            self_shadow: scene.self_shadow.is_some(),
-        })
+        let measured = metres_per_uv.iter().zip(uv_boxes);
+        scene.materials.iter().zip(driven).zip(measured).enumerate().map(
+            |(i, ((material, driven), (metres, uv_box)))| Self {
+                material,
+                face_maps: &scene.face_maps,
+                metres_per_uv: *metres,
+                uv_box: *uv_box,
+                skin_layer: skin_layer(&scene.materials, i),
+                driven,
+                self_shadow: scene.self_shadow.is_some(),
+            },
+        )
     }
+}
+
+/// Place of a material among those whose light is spread over texture coordinates.
+pub(crate) fn skin_layer(materials: &[Material], index: usize) -> u32 {
+    materials.iter().take(index).filter(|m| m.scatters_over_uv()).count() as u32
 }
 
 /// What is on in a shader: names of sections, of their textures, and of what they ask for, as `@if(name)` reads them.

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{AlphaMode, Generated, Options, Section, Shading, Surroundings, TextureRef, walk::plain_parts};
 use crate::render::layout::Block;
+use crate::render::pass::irradiance_uv::layer_uv;
 use crate::skin::{DiffusionProfile, Speculars, Texturing, Transmission};
 
 /// How light that scatters is found.
@@ -19,7 +20,7 @@ pub enum SkinDiffuse {
     PreIntegrated,
     /// By spreading the light of the picture (Golubev 2018).
     ScreenSpace,
-    /// By spreading light over the texture coordinates (d'Eon and Luebke 2007).
+    /// By spreading light over the texture coordinates (d'Eon and Luebke 2007), of which each place must be one of the surface.
     TextureSpace,
 }
 
@@ -67,7 +68,7 @@ crate::section! {
         wrap: f32 = 0.3, in 0.0..=1.0;
         /// Whether that is as it is commonly written, which adds light.
         wrap_as_written: bool = false;
-        /// Places that `screen-space` reads: 11 quick, 17 good, 40 best.
+        /// Places that `screen-space` and `texture-space` read: 11 quick, 17 good, 40 best.
         taps: u32 = 17, in 4..=40;
         /// What is mirrored: `blinn-phong`, `kelemen`, `ggx` or `dual-ggx`.
         specular: SkinSpecular = SkinSpecular::DualGgx;
@@ -94,13 +95,32 @@ crate::section! {
         /// Whether that follows a traced volume, in which more light comes through a slab than the profile says (red 1.3 times at
         /// 1 mm, 3 times at 6 mm); round bodies, whose light leaves at their sides, lie between the two.
         transmission_of_volume: bool = false;
+        /// Share of the warm light round the edge of a toon shade, where it is drawn by normals; wider where a surface is rounder.
+        edge: f32 = 0.0, in 0.0..=4.0;
+        /// Bands of that, as painters cut it; 0 for a smooth one.
+        edge_steps: u32 = 0, in 0..=8;
     }
     presets {
         /// Light skin.
         skin_light {}
         /// Dark skin.
-        skin_dark { profile: DiffusionProfile { scattering_distance_mm: [0.52, 0.2, 0.11], ..DiffusionProfile::default() } }
+        skin_dark { profile: profile("skin-dark"), roughness: 0.4 }
+        /// Polished jade.
+        jade { profile: profile("jade"), specular: SkinSpecular::Ggx, roughness: 0.25 }
+        /// Paraffin wax.
+        wax { profile: profile("wax"), specular: SkinSpecular::Ggx, roughness: 0.5 }
+        /// Whole milk.
+        milk { profile: profile("milk"), specular: SkinSpecular::Ggx, roughness: 0.15 }
+        /// Polished marble.
+        marble { profile: profile("marble"), specular: SkinSpecular::Ggx, roughness: 0.3 }
+        /// Drawn skin: toon shade with a warm band at its edge, wider where a surface is rounder.
+        drawn { natural: 0.0, edge: 0.6, edge_steps: 2, curvature_scale: 4.0 }
     }
+}
+
+/// A profile that is there.
+fn profile(name: &str) -> DiffusionProfile {
+    DiffusionProfile::named(name).unwrap_or_default()
 }
 
 impl Section for Skin {
@@ -109,20 +129,26 @@ impl Section for Skin {
         gpu.put("thickness_range_mm", self.profile.thickness_range_mm());
         gpu.put("reach_mm", self.profile.max_radius_mm());
         gpu.put("metres_per_uv", of.metres_per_uv);
+        gpu.put("layer_uv", layer_uv(of.uv_box));
+        gpu.put("layer", of.skin_layer as f32);
     }
 
     fn options(&self, on: &mut Options, of: &Surroundings<'_>) {
         let is_toon = matches!(of.material.shading, Shading::Toon(_));
         on.set("skin_toon", is_toon && self.natural < 1.0);
+        on.set("skin_edge", is_toon && self.natural < 1.0 && self.edge > 0.0);
         // What is seen through is not in the picture of light on skin.
         let is_seen_through = of.material.drawn_mode() == AlphaMode::Blend;
         let name = match self.diffuse {
             SkinDiffuse::Lambert => "skin_lambert",
             SkinDiffuse::Wrapped => "skin_wrapped",
             SkinDiffuse::ScreenSpace if !is_seen_through => "skin_screen_space",
+            SkinDiffuse::TextureSpace => "skin_texture_space",
             _ => "skin_pre_integrated",
         };
         on.set(name, true);
+        // Which actor's layers it reads.
+        on.set("actor", name == "skin_texture_space");
         on.set("skin_penumbra", name == "skin_pre_integrated" && self.penumbra > 0.0);
         let name = match self.specular {
             SkinSpecular::BlinnPhong => "skin_blinn_phong",

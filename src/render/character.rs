@@ -13,7 +13,8 @@ use super::pass::bangs_shadow::BangsFit;
 use super::pass::deform::DeformSource;
 use super::pass::shadow::{self, ShadowFit};
 use super::pass::{Picture, Sight};
-use super::pass::{glow, irradiance, prepass, velocity};
+use super::pass::{glow, irradiance, irradiance_uv, prepass, velocity};
+use super::skin_layers::SkinPart;
 use super::variants::{Bound, Drawn, Request, Variant, Variants};
 use crate::material::Material;
 use crate::scene::Scene;
@@ -58,6 +59,8 @@ pub(crate) struct CharacterData {
     pub velocities: OnceLock<Depths>,
     /// What draws the light on skin, by whether lamps and an environment shine.
     pub irradiances: Mutex<BTreeMap<[bool; 2], Depths>>,
+    /// The same of skin whose light is spread over texture coordinates.
+    pub uv_irradiances: Mutex<BTreeMap<[bool; 2], Depths>>,
     /// Depth, normal and part of every draw, for the channels that show these.
     pub geometry: OnceLock<Vec<Drawn>>,
     /// Eyes and brows that are seen through hair, the foremost first.
@@ -71,6 +74,8 @@ pub(crate) struct CharacterData {
     pub cuts_move: bool,
     /// Most places that are read for light that spreads over the picture; 0 where none does.
     pub scatter_taps: usize,
+    /// Skin whose light is spread over texture coordinates, a layer for each.
+    pub skin_layers: Vec<SkinPart>,
     /// Most shells of a coat.
     pub shells: u32,
     pub part_materials: Vec<usize>,
@@ -281,6 +286,23 @@ impl CharacterData {
         };
         let made: Depths = self.draws.iter().map(drawn).collect::<Result<_>>()?;
         lock(&self.irradiances).insert(by, Arc::clone(&made));
+        Ok(made)
+    }
+
+    /// What draws the light on skin that spreads over texture coordinates.
+    pub fn uv_irradiances(&self, variants: &Variants, sight: Sight<'_>) -> Result<Depths> {
+        let by = [sight.punctual, sight.environment];
+        if let Some(known) = lock(&self.uv_irradiances).get(&by) {
+            return Ok(Arc::clone(known));
+        }
+        let drawn = |draw: &Draw| {
+            let of = &self.looks.compositions[draw.material];
+            let is_skin = of.is_on("skin_texture_space");
+            let request = is_skin.then(|| irradiance_uv::request(of, draw.has_vertex_colors, sight));
+            request.map(|request| Ok(self.bind(&variants.gpu, variants.get(&request)?, draw.material))).transpose()
+        };
+        let made: Depths = self.draws.iter().map(drawn).collect::<Result<_>>()?;
+        lock(&self.uv_irradiances).insert(by, Arc::clone(&made));
         Ok(made)
     }
 

@@ -201,10 +201,14 @@ pub(super) fn requests(
 
 /// What a material of a scene is drawn with, in every pass.
 pub(super) fn recipes_of(shaders: &Shaders, scene: &Scene, material: usize) -> Vec<Recipe> {
-    let compositions: Vec<Composition> =
-        Surroundings::of_scene(scene, &Driven::of(scene), &uv_metric::metres_per_uv(scene))
-            .map(|of| Composition::new(shaders, &of))
-            .collect();
+    let compositions: Vec<Composition> = Surroundings::of_scene(
+        scene,
+        &Driven::of(scene),
+        &uv_metric::metres_per_uv(scene),
+        &uv_metric::uv_boxes(scene),
+    )
+    .map(|of| Composition::new(shaders, &of))
+    .collect();
     let picture = Picture { output: Output::default(), depth_format: DEPTH_STENCIL_FORMAT, sight: Sight::default() };
     let draws = draws(scene, &Geometry::gather(scene).parts, true);
     let all = requests(scene, &draws, &compositions, &picture);

@@ -11,15 +11,16 @@ use super::finish::Finish;
 use super::layers::Layers;
 use super::layout::Filled;
 use super::numbers::put_view;
-use super::pass::HDR_FORMAT;
 use super::pass::background::BackgroundInputs;
 use super::pass::bangs_shadow::{self, BangsShadowInputs};
 use super::pass::ground::GroundInputs;
 use super::pass::prepass::{self, PrepassInputs};
 use super::pass::shadow::{self, ShadowInputs};
 use super::pass::velocity::{self, VelocityInputs};
+use super::pass::{HDR_FORMAT, Sight};
 use super::pass::{eyes_through, fluff, opaque, outline, transparent};
 use super::scattering::Scattering;
+use super::skin_layers::{self, SkinPainter};
 use super::take::{Shown, Take};
 use super::targets::{self, ColorTargets, PrepassTargets};
 use super::temporal::{Following, Temporal};
@@ -30,8 +31,8 @@ use crate::scene::{Antialias, Image, Post};
 use crate::stage::bodies::Bodies;
 use crate::{Error, Gpu, Result, Stage};
 
-/// Depth, normals and parts, and light that has scattered in skin.
-type ReadByColor = [wgpu::TextureView; 3];
+/// Depth, normals and parts, and light that has scattered in skin: over the picture, and over texture coordinates.
+type ReadByColor = [wgpu::TextureView; 4];
 
 /// What frames are drawn with, and into.
 #[derive(Debug)]
@@ -53,6 +54,8 @@ pub(super) struct Frame {
     scattering: Option<Scattering>,
     /// Stands for what scatters where nothing does.
     no_scattered: wgpu::TextureView,
+    no_skin: wgpu::TextureView,
+    skin_painter: Option<SkinPainter>,
     /// Group 0 of the colour pass, with what it reads of other passes, where it reads any.
     color_group: Option<(ReadByColor, wgpu::BindGroup)>,
     layers: Option<Layers>,
@@ -70,7 +73,8 @@ impl Frame {
         let environment = environments.none();
         let no_prepass = PrepassTargets::new(gpu, [1, 1], false);
         let no_scattered = targets::sampled(gpu, "none", [1, 1], HDR_FORMAT);
-        let nothing = [&no_prepass.depth_view, &no_prepass.surfaces_view, &no_scattered].map(Clone::clone);
+        let no_skin = skin_layers::none(gpu);
+        let nothing = [&no_prepass.depth_view, &no_prepass.surfaces_view, &no_scattered, &no_skin].map(Clone::clone);
         Self {
             uploads: Uploads::new(gpu),
             blended: BlendedList::new(gpu),
@@ -84,6 +88,8 @@ impl Frame {
             prepass_targets: None,
             scattering: None,
             no_scattered,
+            no_skin,
+            skin_painter: None,
             color_group: None,
             layers: None,
             temporal: None,
@@ -118,6 +124,7 @@ impl Frame {
             // What casts on faces, from the light of that shadow, and on everybody from the key light; only where a pose, the
             // light or a place has changed.
             self.encode_maps(r, encoder, stage, clock)?;
+            self.encode_skin(r, encoder, stage)?;
         }
         Ok(())
     }
@@ -264,7 +271,7 @@ impl Frame {
         if scatters(stage, take) {
             Scattering::fit(&mut self.scattering, r, view.size)?;
         }
-        self.fit_color_group(r, has_prepass(stage, *post), scatters(stage, take));
+        self.fit_color_group(r, has_prepass(stage, *post), scatters(stage, take), stage.bodies.skin.view());
         let pipelines = stage.bodies.troupes.iter().map(|troupe| troupe.data().shown(&r.variants, picture));
         Ok((pipelines.collect::<Result<_>>()?, following))
     }
@@ -307,23 +314,23 @@ impl Frame {
         let map = self.environments.of(&r.variants, stage.lights.environment.as_ref())?;
         if map.cube != self.environment.cube {
             self.environment = map;
-            self.group = frame_group(r.gpu(), &r.layouts, self.shared(), &self.read(false, false));
+            self.group = frame_group(r.gpu(), &r.layouts, self.shared(), &self.read(false, false, None));
             self.color_group = None;
         }
         Ok(())
     }
 
     /// What the colour pass reads of other passes.
-    fn read(&self, prepass: bool, scattered: bool) -> ReadByColor {
+    fn read(&self, prepass: bool, scattered: bool, skin: Option<&wgpu::TextureView>) -> ReadByColor {
         let drawn = self.prepass_targets.as_ref().filter(|_| prepass).unwrap_or(&self.no_prepass);
         let scattered = self.scattering.as_ref().filter(|_| scattered).map_or(&self.no_scattered, |s| &s.scattered);
-        [&drawn.depth_view, &drawn.surfaces_view, scattered].map(Clone::clone)
+        [&drawn.depth_view, &drawn.surfaces_view, scattered, skin.unwrap_or(&self.no_skin)].map(Clone::clone)
     }
 
     /// Makes group 0 of the colour pass, where it is another than that of other passes and of the last picture.
-    fn fit_color_group(&mut self, r: &Renderer, prepass: bool, scattered: bool) {
-        let read = self.read(prepass, scattered);
-        if !prepass && !scattered {
+    fn fit_color_group(&mut self, r: &Renderer, prepass: bool, scattered: bool, skin: Option<&wgpu::TextureView>) {
+        let read = self.read(prepass, scattered, skin);
+        if !prepass && !scattered && skin.is_none() {
             self.color_group = None;
         } else if self.color_group.as_ref().is_none_or(|(known, _)| *known != read) {
             let group = frame_group(r.gpu(), &r.layouts, self.shared(), &read);
@@ -377,6 +384,22 @@ impl Frame {
             shadow::encode(encoder, ShadowInputs { actors, map, layer, drawn }, casters, None);
         }
         Ok(())
+    }
+
+    /// Light that falls on skin and spreads over its texture coordinates; only where something has changed that it depends on.
+    fn encode_skin(&mut self, r: &Renderer, encoder: &mut wgpu::CommandEncoder, stage: &mut Stage) -> Result<()> {
+        let has_skin = stage.bodies.list.iter().any(|body| body.skin_layers().next().is_some());
+        if !has_skin || !stage.bodies.stale_skin(&stage.lights, stage.time_s) {
+            return Ok(());
+        }
+        let Some(actors) = actors(stage, &self.group, None) else { return Ok(()) };
+        let painter = match &mut self.skin_painter {
+            Some(painter) => painter,
+            none => none.insert(SkinPainter::new(r)?),
+        };
+        let lights = &stage.lights;
+        let (punctual, environment) = (!lights.punctual.is_empty(), lights.environment.is_some());
+        painter.encode(r, &mut self.uploads, encoder, actors, Sight { punctual, environment, ..Sight::default() })
     }
 
     fn encode_prepass(
@@ -545,7 +568,7 @@ fn frame_group(
     gpu: &Gpu,
     layouts: &Layouts,
     (uniform, environments, environment): (&wgpu::Buffer, &Environments, &EnvironmentMap),
-    [depth, surfaces, scattered]: &ReadByColor,
+    [depth, surfaces, scattered, skin]: &ReadByColor,
 ) -> wgpu::BindGroup {
     let resources = [
         uniform.as_entire_binding(),
@@ -555,6 +578,7 @@ fn frame_group(
         BindingResource::Sampler(&environments.sampler),
         environments.split_sum.as_entire_binding(),
         BindingResource::TextureView(scattered),
+        BindingResource::TextureView(skin),
     ];
     bind::group(gpu, "frame", &layouts.frame, resources)
 }

@@ -158,7 +158,8 @@ impl Geometry {
         let mut materials_by_id = vec![0; parts.len()];
         let is_skin = |p: &Primitive| scene.materials.get(p.material).is_some_and(|m| m.skin.is_some());
         let skin: Vec<_> = parts.iter().filter(|part| is_skin(part.2)).map(|part| (part.2, part.4)).collect();
-        let mut skin = skin::measured(&skin).into_iter();
+        let scales = scene.materials.iter().filter_map(|m| Some(m.skin.as_ref()?.profile.world_scale));
+        let mut skin = skin::measured(&skin, scales.fold(f32::MAX, f32::min)).into_iter();
         for (id, node, primitive, group, rest_matrix) in &parts {
             let sight = sight(scene, &in_head, *node);
             let material = scene.materials.get(primitive.material);
@@ -225,7 +226,12 @@ impl Geometry {
             let bare = strips.map_or([255; 4], |s| s.colors[v]);
             let color = primitive.colors.get(v).map_or(bare, |c| c.map(|x| (x.clamp(0.0, 1.0) * 255.0).round() as u8));
             let part = id | strips.map_or(0, |s| s.numbers[v] << 16);
-            let skin = skin.as_ref().and_then(|s| s.get(v)).copied().unwrap_or_default().map(|x| half::f16::from_f32(x).to_bits());
+            let skin = skin
+                .as_ref()
+                .and_then(|s| s.get(v))
+                .copied()
+                .unwrap_or_default()
+                .map(|x| half::f16::from_f32(x).to_bits());
             self.static_vertices.push(StaticVertex { uv: [u0, v0, u1, v1], color, part, skin });
             self.vertex_refs.push([group_index, self.morphs.len() as u32]);
             morphs.take(v as u32, &mut self.morphs);

@@ -9,7 +9,7 @@ use super::shaders::{BindingKind, Places, Shaders};
 use super::textures::TextureSet;
 use super::uploads::Uploads;
 use super::variants::{Bound, BoundLayout};
-use crate::material::{Material, Surroundings};
+use crate::material::{Material, Surroundings, skin_layer};
 use crate::motion::{Driven, Shifts};
 use crate::scene::Scene;
 use crate::sdf::FaceMap;
@@ -37,6 +37,7 @@ pub(crate) struct Looks {
     pub(super) default_sampler: wgpu::Sampler,
     pub(super) face_maps: Vec<FaceMap>,
     pub(super) metres_per_uv: Vec<[f32; 2]>,
+    pub(super) uv_boxes: Vec<[[f32; 2]; 2]>,
     pub(super) driven: Vec<Driven>,
     pub(super) self_shadow: bool,
 }
@@ -90,6 +91,8 @@ impl Looks {
             material,
             face_maps: &self.face_maps,
             metres_per_uv: self.metres_per_uv.get(index).copied().unwrap_or([1.0; 2]),
+            uv_box: self.uv_boxes.get(index).copied().unwrap_or([[0.0; 2], [1.0; 2]]),
+            skin_layer: skin_layer(&self.sources, index),
             driven: self.driven.get(index).unwrap_or(Driven::NONE),
             self_shadow: self.self_shadow,
         }

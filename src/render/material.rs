@@ -9,8 +9,8 @@ use crate::material::{
 };
 use crate::{Error, Result};
 
-/// Textures that WebGPU promises to one shader stage; 4 are read of the frame and 3 of the character at most.
-const MAX_TEXTURES: usize = 16 - 7;
+/// Textures that WebGPU promises to one shader stage; 5 are read of the frame and 3 of the character at most.
+const MAX_TEXTURES: usize = 16 - 8;
 
 /// A texture that a material binds.
 #[derive(Clone, Debug)]

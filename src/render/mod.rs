@@ -23,6 +23,7 @@ pub(crate) mod pass;
 pub(crate) mod readback;
 mod scattering;
 pub mod shaders;
+pub(crate) mod skin_layers;
 mod take;
 mod target;
 mod targets;
@@ -324,7 +325,8 @@ impl Layouts {
             read(bind::filtered(D::Cube)),
             read(Sampler(SamplerBindingType::Filtering)),
             read(bind::uniform(None)),
-            read(bind::texture(T::Float { filterable: false }, D::D2)),
+            read(bind::filtered(D::D2)),
+            read(bind::filtered(D::D2Array)),
         ];
         let numbers = bind::texture(T::Float { filterable: false }, D::D2Array);
         let character = [

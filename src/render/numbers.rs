@@ -106,6 +106,8 @@ pub(crate) struct ActorState<'a> {
     pub shadow: ShadowRows,
     /// Share of the key light that arrives.
     pub key_light: f32,
+    /// First layer of the light on its skin.
+    pub skin_layer: Option<u32>,
 }
 
 impl ActorState<'_> {
@@ -122,6 +124,7 @@ impl ActorState<'_> {
             from_world: Mat4::IDENTITY,
             shadow,
             key_light: 1.0,
+            skin_layer: None,
         }
     }
 }
@@ -164,6 +167,7 @@ pub(crate) fn put_actor(gpu: &mut Block<'_>, of: &ActorState<'_>) {
     gpu.put("shadow_spread", shadow.spread);
     gpu.put("shadow_middle", shadow.middle.to_array());
     gpu.put("key_light", of.key_light);
+    gpu.put("skin_layer", of.skin_layer.map_or(-1.0, |layer| layer as f32));
     gpu.put("shadow_layer", shadow.layer.map_or(-1.0, |layer| layer as f32));
 }
 

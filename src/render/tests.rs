@@ -66,7 +66,7 @@ fn needed(fields: &[Field]) -> Table {
 }
 
 fn surroundings<'a>(material: &'a Material, face_maps: &'a [FaceMap]) -> Surroundings<'a> {
-    Surroundings { material, face_maps, metres_per_uv: [1.0; 2], driven: Driven::NONE, self_shadow: true }
+    Surroundings { face_maps, self_shadow: true, ..Surroundings::alone(material) }
 }
 
 fn face_maps() -> Vec<FaceMap> {

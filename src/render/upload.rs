@@ -12,6 +12,7 @@ use super::pass::bangs_shadow::{self, BangsAtlas, BangsFit};
 use super::pass::deform::{DeformBuffers, DeformSource};
 use super::pass::shadow::{self, ShadowFit, ShadowMap};
 use super::pass::{Picture, Sight};
+use super::skin_layers::SkinPart;
 use super::textures::{self, TextureSet};
 use super::{Renderer, bind, uv_metric};
 use crate::hair::holds_flow;
@@ -93,16 +94,25 @@ impl Renderer {
                 return Err(Error::Argument { what, message: message.to_owned() });
             }
         }
-        let metres_per_uv = uv_metric::metres_per_uv(scene);
+        let (metres_per_uv, uv_boxes) = (uv_metric::metres_per_uv(scene), uv_metric::uv_boxes(scene));
+        for (index, material) in sources.iter().enumerate().filter(|(_, m)| m.scatters_over_uv()) {
+            let parts = scene.meshes.iter().flat_map(|m| &m.primitives).filter(|p| p.material == index);
+            // A point or a line holds no light of a surface.
+            if parts.map(uv_metric::uv_box).any(|[_, extent]| extent.contains(&0.0)) {
+                let what = format!("material {index} {:?}, skin.diffuse", material.name);
+                let message = "is texture-space, but the part has no texture coordinates; please choose screen-space or pre-integrated";
+                return Err(Error::Argument { what, message: message.to_owned() });
+            }
+        }
         let driven = Driven::of(scene);
         let mut compositions = Vec::with_capacity(sources.len());
-        for of in Surroundings::of_scene(scene, &driven, &metres_per_uv) {
+        for of in Surroundings::of_scene(scene, &driven, &metres_per_uv, &uv_boxes) {
             self.variants.shaders.check(of.material)?;
             let composition = Composition::new(&self.variants.shaders, &of);
             composition.check(&of.material.name)?;
             compositions.push(composition);
         }
-        Ok(Described { sources, compositions, metres_per_uv, driven })
+        Ok(Described { sources, compositions, metres_per_uv, uv_boxes, driven })
     }
 
     fn upload_with(&self, scene: &Scene, described: Described, textures: &TextureSet) -> Result<Character> {
@@ -115,7 +125,7 @@ impl Renderer {
         let gpu = self.gpu().clone();
         let buffer = |label, contents: &[u8], usage| bind::filled(&gpu, label, contents, usage);
         use wgpu::BufferUsages as U;
-        let Described { sources, compositions, metres_per_uv, driven } = described;
+        let Described { sources, compositions, metres_per_uv, uv_boxes, driven } = described;
         let places = Arc::clone(&self.variants.shaders.places);
         let stride = stride(&places);
         let bound = compositions.iter().map(|c| bound_textures(scene, c, textures)).collect();
@@ -134,6 +144,7 @@ impl Renderer {
             default_sampler: textures.default_sampler.clone(),
             face_maps: scene.face_maps.iter().map(FaceMap::without_texels).collect(),
             metres_per_uv,
+            uv_boxes,
             driven,
             self_shadow: scene.self_shadow.is_some(),
         };
@@ -160,7 +171,11 @@ impl Renderer {
         let requests = draw_list::requests(scene, &draws, &looks.compositions, &Picture::new(&gpu, self.output, sight));
         let has_prepass = requests.iter().any(|p| p.prepass.is_some());
         let scattering = draws.iter().filter(|d| looks.compositions[d.material].is_on("skin_screen_space"));
-        let scatter_taps = scattering.filter_map(|d| Some(looks.sources[d.material].skin?.taps as usize)).max().unwrap_or(0);
+        let scatter_taps =
+            scattering.filter_map(|d| Some(looks.sources[d.material].skin?.taps as usize)).max().unwrap_or(0);
+        let of_skin = (0..scene.materials.len()).filter(|i| scene.materials[*i].scatters_over_uv());
+        let skin_layers =
+            of_skin.map(|i| SkinPart::new(&gpu, scene, i, looks.uv_boxes[i], looks.metres_per_uv[i])).collect();
         let shells = scene.materials.iter().filter_map(|m| m.fluff).map(|f| f.shells.min(MAX_SHELLS)).max();
         let data = CharacterData {
             made_by: (gpu.clone(), self.output),
@@ -182,6 +197,8 @@ impl Renderer {
             glows: OnceLock::new(),
             velocities: OnceLock::new(),
             irradiances: Mutex::default(),
+            uv_irradiances: Mutex::default(),
+            skin_layers,
             draws,
             bangs,
             shadow,
@@ -368,6 +385,7 @@ struct Described {
     sources: Vec<Material>,
     compositions: Vec<Composition>,
     metres_per_uv: Vec<[f32; 2]>,
+    uv_boxes: Vec<[[f32; 2]; 2]>,
     driven: Vec<Driven>,
 }
 

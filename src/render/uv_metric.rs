@@ -3,7 +3,7 @@
 use glam::{Vec2, Vec3};
 
 use crate::material::Material;
-use crate::scene::Scene;
+use crate::scene::{Primitive, Scene};
 
 /// Metres along a unit of u and of v on the surfaces of each material at rest: the mean over the texture, so that linings and
 /// borders with hardly a place of their own there do not count; 1 where they span nothing. Only materials that ask are
@@ -49,6 +49,36 @@ pub(crate) fn metres_per_uv(scene: &Scene) -> Vec<[f32; 2]> {
     sums.into_iter().map(mean).collect()
 }
 
+/// Least texture coordinates of the first set on the surfaces of each material, and how far the others go beyond them; nowhere
+/// where there are none. Only of materials whose light is spread over them.
+pub(crate) fn uv_boxes(scene: &Scene) -> Vec<[[f32; 2]; 2]> {
+    let parts =
+        |material: usize| scene.meshes.iter().flat_map(|m| &m.primitives).filter(move |p| p.material == material);
+    let box_of = |(material, of): (usize, &Material)| {
+        let asks = of.scatters_over_uv();
+        boxed(parts(material).filter(|_| asks).flat_map(|p| p.uvs.first().into_iter().flatten()))
+    };
+    scene.materials.iter().enumerate().map(box_of).collect()
+}
+
+/// The same of a part.
+pub(crate) fn uv_box(part: &Primitive) -> [[f32; 2]; 2] {
+    boxed(part.uvs.first().into_iter().flatten())
+}
+
+fn boxed<'a>(uvs: impl Iterator<Item = &'a [f32; 2]>) -> [[f32; 2]; 2] {
+    let within = |(low, high): (Vec2, Vec2), uv: Vec2| (low.min(uv), high.max(uv));
+    let finite = uvs.copied().map(Vec2::from).filter(|uv| uv.is_finite());
+    let (low, high) = finite.fold((Vec2::INFINITY, Vec2::NEG_INFINITY), within);
+    let extent = high - low;
+    if extent.is_finite() {
+        [low, extent]
+    } else {
+        [Vec2::ZERO; 2]
+    }
+    .map(|v| v.to_array())
+}
+
 /// Whether a material is measured.
 fn measures(material: &Material) -> bool {
     material.dissolve.is_some() || material.is_hashed() || material.skin.is_some()
@@ -58,7 +88,7 @@ fn measures(material: &Material) -> bool {
 mod tests {
     use super::*;
     use crate::material::{Dissolve, Material};
-    use crate::scene::{Mesh, Node, Primitive};
+    use crate::scene::{Mesh, Node};
 
     #[test]
     fn a_strip_is_as_long_and_wide_as_its_texture_says() {

@@ -57,11 +57,13 @@ impl GaussianSum {
         self.sum(|g| (-0.5 * x_mm * x_mm / g.variance).exp() / (TAU * g.variance).sqrt())
     }
 
+    #[cfg(test)]
     /// Light at distance x inside of a straight edge of light, mm, negative outside: 0 to 1, half on the edge.
     pub(crate) fn edge(&self, x_mm: f64) -> [f64; 3] {
         self.sum(|g| normal_cdf(x_mm / g.variance.sqrt()))
     }
 
+    #[cfg(test)]
     /// What takes the place of `max(0, N.L)` on a surface of this curvature, 1/mm, at the angle theta between N and L
     /// (Penner 2011). Exact on a cylinder.
     pub(crate) fn diffused(&self, theta: f64, curvature_per_mm: f64) -> [f64; 3] {

@@ -6,6 +6,7 @@ mod gaussians;
 mod measures;
 mod presets;
 mod profile;
+mod seams;
 mod specular;
 mod tables;
 mod thickness;
@@ -15,5 +16,6 @@ pub use profile::{DiffusionProfile, Texturing, Transmission};
 
 pub(crate) use disc::{MOST_TAPS, discs};
 pub(crate) use measures::measured;
+pub(crate) use seams::Seams;
 pub(crate) use specular::Speculars;
 pub(crate) use tables::{TABLE_SIZE, skin_table};

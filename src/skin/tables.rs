@@ -142,21 +142,4 @@ mod tests {
             }
         }
     }
-
-    #[test]
-    #[ignore = "a measurement of time"]
-    fn time_of_a_table() {
-        let profile = DiffusionProfile::default();
-        for model in [SkinSpecular::BlinnPhong, SkinSpecular::Kelemen, SkinSpecular::Ggx, SkinSpecular::DualGgx] {
-            for _ in 0..3 {
-                let started = std::time::Instant::now();
-                let speculars = Speculars { model, ..DUAL };
-                std::hint::black_box(skin_table(&profile, &speculars));
-                let whole = started.elapsed();
-                let started = std::time::Instant::now();
-                std::hint::black_box(row(&profile, &speculars, &GaussianSum::of(&profile), ALBEDO_ROW));
-                println!("{model:?}: table {whole:?}, row of albedo {:?}", started.elapsed());
-            }
-        }
-    }
 }

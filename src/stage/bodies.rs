@@ -17,6 +17,7 @@ use crate::render::numbers::ActorState;
 use crate::render::pass::Mark;
 use crate::render::pass::ground::GroundBody;
 use crate::render::pass::shadow::{ShadowMap, ShadowRows};
+use crate::render::skin_layers::{MOST_LAYERS, SkinLayers};
 use crate::render::uploads::Uploads;
 use crate::render::vertex::Instance;
 use crate::{Error, Gpu, Result};
@@ -32,6 +33,7 @@ pub(crate) struct Bodies {
     pub crowd: Option<Crowd>,
     pub ground: Option<GroundBody>,
     pub past: StagePast,
+    pub skin: SkinLayers,
     pub(super) scratch: Scratch,
 }
 
@@ -164,6 +166,7 @@ impl Bodies {
         scratch.faces.clear();
         scratch.faces.extend(list.iter().map(|body| body.face_light(to_light)));
         let has_other_maps = self.fit_maps(gpu, focus, on_world);
+        self.fit_skin(gpu);
         let Self { list, troupes, shadow, crowd, .. } = self;
         let crowd = crowd.get_or_insert_with(|| Crowd::new(gpu));
         // The stage itself comes last.
@@ -174,6 +177,26 @@ impl Bodies {
         self.number_eyes();
         self.fill_lists(to_light);
         has_other_maps
+    }
+
+    /// Gives each actor layers for the light on its skin, as long as there are some.
+    fn fit_skin(&mut self, gpu: &Gpu) {
+        let mut used = 0;
+        let mut lacks = false;
+        for body in &mut self.list {
+            let wanted = body.data().skin_layers.len() as u32;
+            let fits = used + wanted <= MOST_LAYERS;
+            lacks |= !fits;
+            body.skin_layer = (wanted > 0 && fits).then_some(used);
+            used += if fits { wanted } else { 0 };
+        }
+        self.skin.fit(gpu, used);
+        if lacks && !self.skin.lacks {
+            tracing::warn!(
+                "texture-space skin has {MOST_LAYERS} layers; actors beyond these are lit without scattering"
+            );
+        }
+        self.skin.lacks = lacks;
     }
 
     /// Gives those a number each whose eyes might be seen through the hair of another, and others the same one.

@@ -11,6 +11,7 @@ use crate::render::made::Made;
 use crate::render::numbers::ActorState;
 use crate::render::pass::shadow::ShadowRows;
 use crate::render::shaders::Shaders;
+use crate::render::skin_layers::SkinPart;
 use crate::render::vertex::AffineRows;
 use crate::render::{Character, CharacterData};
 use crate::{Error, Result};
@@ -39,6 +40,8 @@ pub(crate) struct Body {
     pub(super) bounds: (Vec3, Vec3),
     pub(super) volume: Volume,
     pub(super) shadow_layer: Option<u32>,
+    /// First layer of the light on its skin.
+    pub(super) skin_layer: Option<u32>,
     /// Moves the head from its rest to the pose, and the hips.
     pub(super) head: Mat4,
     pub(super) hips: Mat4,
@@ -92,6 +95,7 @@ impl Body {
             bounds: (Vec3::ZERO, Vec3::ZERO),
             volume: Volume::default(),
             shadow_layer: None,
+            skin_layer: None,
             head: Mat4::IDENTITY,
             hips: Mat4::IDENTITY,
             edits: Edits::default(),
@@ -138,6 +142,11 @@ impl Body {
     /// Layer of its own shadow map.
     pub fn shadow_layer(&self) -> Option<u32> {
         self.shadow_layer
+    }
+
+    /// Layers of the light on its skin.
+    pub fn skin_layers(&self) -> impl Iterator<Item = (u32, &SkinPart)> {
+        self.skin_layer.into_iter().flat_map(|first| (first..).zip(&self.data().skin_layers))
     }
 
     /// Takes place and pose of an actor.
@@ -243,6 +252,7 @@ impl Body {
             from_world,
             shadow: self.shadow_layer.and_then(own).unwrap_or(of_world),
             key_light: self.key_light,
+            skin_layer: self.skin_layer,
         }
     }
 }

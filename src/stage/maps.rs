@@ -8,7 +8,7 @@ use super::volume::Volume;
 use crate::Gpu;
 use crate::render::made::Made;
 use crate::render::pass::shadow::{ShadowFit, ShadowMap, ShadowRows};
-use crate::scene::{MOST_SHADOWED, SelfShadow};
+use crate::scene::{Lights, MOST_SHADOWED, SelfShadow};
 
 /// The shadow map of the whole stage.
 #[derive(Debug)]
@@ -44,6 +44,17 @@ struct Cast {
     world: Mat4,
     head: Mat4,
     hips: Mat4,
+}
+
+/// What light on skin depends on, with the maps of shadows.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct SkinKey {
+    lights: Lights,
+    /// Where it moves what surfaces show.
+    time_s: f32,
+    bodies: Vec<Cast>,
+    /// Layers of skin and of shadows, and the share of the key light.
+    layers: Vec<(Option<u32>, Option<u32>, f32)>,
 }
 
 /// Maps that must be drawn.
@@ -94,6 +105,25 @@ impl Bodies {
             world_map.made = Made::not_yet(());
         }
         has_others
+    }
+
+    /// Whether light on skin was drawn from something else.
+    pub fn stale_skin(&mut self, lights: &Lights, time_s: f32) -> bool {
+        let moves = self.list.iter().any(|body| body.data().cuts_move);
+        let bodies = self.list.iter().map(|&Body { id, revisions, world, head, hips, .. }| Cast {
+            id,
+            revisions,
+            world,
+            head,
+            hips,
+        });
+        let key = SkinKey {
+            lights: lights.clone(),
+            time_s: if moves { time_s } else { 0.0 },
+            bodies: bodies.collect(),
+            layers: self.list.iter().map(|body| (body.skin_layer, body.shadow_layer, body.key_light)).collect(),
+        };
+        self.skin.drawn.stale(key).is_some()
     }
 
     /// Bodies and troupes whose maps were made from something else.

@@ -5,7 +5,7 @@ pub(crate) mod bodies;
 pub(crate) mod body;
 pub(crate) mod crowd;
 mod ground;
-mod maps;
+pub(crate) mod maps;
 pub(crate) mod past;
 mod shadow;
 pub(crate) mod troupe;

@@ -22,6 +22,8 @@ mod natural;
 mod oracles;
 mod own_look;
 mod self_shadow;
+mod skin;
+mod skin_texture_space;
 mod stage;
 mod strips;
 mod temporal;

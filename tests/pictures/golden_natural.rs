@@ -1,9 +1,12 @@
-//! Pictures of natural light that were looked at: physical surfaces, hair, environments.
+//! Pictures of natural light that were looked at: physical surfaces, hair, skin, environments.
 
 use glam::Vec3;
 use hikage::Background;
-use hikage::material::{Base, FibreModel, Hair, HairModel, Material, Shading, Standard, Toon};
+use hikage::material::{
+    Base, FibreModel, Hair, HairModel, Material, Shading, Skin, SkinDiffuse, SkinSpecular, Standard, Toon,
+};
 use hikage::scene::{Environment, Image, Post, Scene, ToneCurve};
+use hikage::skin::DiffusionProfile;
 
 use super::golden_looks::{averaged, ball, beside, check, panel_view};
 use crate::support::{Lent, Shoot, Shot, gpu, staged, with_renderer};
@@ -82,4 +85,53 @@ fn strands() {
     .map(|hair| row(&gpu, balls(hair), sweep))
     .collect();
     check("strands", &rows);
+}
+
+/// Balls as if of 30 mm: ways to find scattered light while light comes round; profiles; what is mirrored.
+#[test]
+fn scattering() {
+    let gpu = gpu();
+    let of = |color: [f32; 3], skin: Skin| {
+        let [r, g, b] = color;
+        let profile = DiffusionProfile { world_scale: 0.03, ..skin.profile };
+        ball(Material {
+            base: Base { color: [r, g, b, 1.0], texture: None },
+            shading: Shading::Toon(Toon { shade_color: [0.62, 0.4, 0.36], ..Toon::default() }),
+            skin: Some(Skin { profile, ..skin }),
+            ..Material::default()
+        })
+    };
+    let light = |shot: &mut Shot, yaw: f32| {
+        let (sin, cos) = yaw.to_radians().sin_cos();
+        shot.lights.directional.to_light = Vec3::new(sin, 0.3, cos).normalize();
+        shot.lights.environment = Some(Environment { strength: 0.1, ..Environment::studio() });
+    };
+    let skin_color = [0.83, 0.58, 0.48];
+    let swept = |skin: Skin| {
+        let yaws = [-60.0f32, -20.0, 60.0, 100.0, 150.0];
+        row(&gpu, vec![of(skin_color, skin); 5], move |shot, i| light(shot, yaws[i]))
+    };
+    let side = |scenes: Vec<Scene>| row(&gpu, scenes, |shot, _| light(shot, 70.0));
+    let by = |diffuse| Skin { diffuse, ..Skin::default() };
+    let profiles = [
+        (skin_color, Skin::skin_dark()),
+        ([0.4, 0.65, 0.45], Skin::jade()),
+        ([0.9, 0.8, 0.55], Skin::wax()),
+        ([0.9, 0.88, 0.82], Skin::milk()),
+        ([0.85, 0.84, 0.82], Skin::marble()),
+    ];
+    let profiles = profiles.map(|(color, skin)| of(color, Skin { diffuse: SkinDiffuse::ScreenSpace, ..skin }));
+    let speculars = [SkinSpecular::BlinnPhong, SkinSpecular::Kelemen, SkinSpecular::Ggx, SkinSpecular::DualGgx];
+    let speculars = speculars.map(|specular| of(skin_color, Skin { specular, ..Skin::default() }));
+    let bare = of(skin_color, Skin { specular_strength: 0.0, ..Skin::default() });
+    let rows = [
+        swept(by(SkinDiffuse::Lambert)),
+        swept(by(SkinDiffuse::Wrapped)),
+        swept(by(SkinDiffuse::PreIntegrated)),
+        swept(by(SkinDiffuse::ScreenSpace)),
+        swept(Skin::drawn()),
+        side(profiles.into()),
+        side(speculars.into_iter().chain([bare]).collect()),
+    ];
+    check("scattering", &rows);
 }

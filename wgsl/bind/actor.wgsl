@@ -49,6 +49,8 @@ struct Actor {
     shadow_middle: vec3f,
     // Layer of its map; below 0 it has none.
     shadow_layer: f32,
+    // First layer of the light on its skin over texture coordinates; below 0 it has none.
+    skin_layer: f32,
 }
 
 // A vertex: position (character space once it is deformed) and octahedral snorm16 pairs of its normal, tangent

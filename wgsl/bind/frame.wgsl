@@ -89,6 +89,10 @@ fn distance_at(pixel: vec2i) -> f32 {
 // metres, 0 where there is none.
 @group(0) @binding(6) var frame_scattered: texture_2d<f32>;
 
+// Light that has scattered in skin over texture coordinates, over pi, of which the mean of two by two texels is meant; and 1 where
+// there is some. A layer for each material of each actor.
+@group(0) @binding(7) var frame_skin: texture_2d_array<f32>;
+
 // Normal and part of the nearest surface of each pixel, one sample a pixel; only where a material has inner lines.
 @group(0) @binding(2) var frame_surfaces: texture_2d<u32>;
 

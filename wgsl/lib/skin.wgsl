@@ -100,21 +100,16 @@ fn albedo_place(n_dot_v: f32) -> vec2f {
     return table_place(n_dot_v, 98.0);
 }
 
-// Weight of a tap at a distance in the plane that lies dz deeper, where distances are drawn by Burley's profile of `sampled_d`:
-// the reflectance over the density, both per area. One exponential of the difference, as both may vanish.
-fn disc_weight(r_mm: f32, dz_mm: f32, d: vec3f, sampled_d: f32) -> vec3f {
+// Weight of a tap at a distance in the plane that lies dz deeper: the reflectance over the density per area by which the place was
+// drawn, of which 1/8 pi over it is given.
+fn disc_weight(r_mm: f32, dz_mm: f32, d: vec3f, over_density: f32) -> vec3f {
     let r = max(r_mm, LEAST_WAY);
-    let way = sqrt(r * r + dz_mm * dz_mm);
-    let to = max(d, vec3f(LEAST_WAY));
-    let from_d = max(sampled_d, LEAST_WAY);
-    let e = burley_fall(way, to);
-    let drawn = burley_fall(r, vec3f(from_d));
-    // 60: e to it is finite.
-    let falls = exp(min((r / from_d - way / to) / 3.0, vec3f(60.0)));
-    return falls * (1.0 + e * e) / (1.0 + drawn * drawn) * (from_d / to) * (r / way);
+    return tap_weight(sqrt(r * r + dz_mm * dz_mm), d, over_density);
 }
 
-// Angle of a tap, radians: golden, so that any number of taps fills a disc. The product wraps at a turn of 2³².
-fn disc_angle(i: u32) -> f32 {
-    return f32(i * 1640531527u) * 1.46291808e-9;
+// The same of a tap that lies so far away.
+fn tap_weight(way_mm: f32, d: vec3f, over_density: f32) -> vec3f {
+    let way = max(way_mm, LEAST_WAY);
+    let e = burley_fall(way, d);
+    return e * (1.0 + e * e) * (over_density / way) / max(d, vec3f(LEAST_WAY));
 }

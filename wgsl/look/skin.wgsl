@@ -3,6 +3,8 @@ import package::bind::uv::UvTransform;
 
 struct Skin {
     natural: f32,
+    edge: f32,
+    edge_steps: u32,
     wrap: f32,
     roughness: f32,
     specular_strength: f32,
@@ -27,4 +29,7 @@ struct Skin {
     reach_mm: f32,
     // Metres along u and v.
     metres_per_uv: vec2f,
+    // Place of the light over texture coordinates among layers of the actor; scale and offset of coordinates in it.
+    layer: f32,
+    layer_uv: vec4f,
 }

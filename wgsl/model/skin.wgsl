@@ -1,12 +1,13 @@
 // Skin: light that scatters below its surface, and what is mirrored on it.
 import package::bind::actor::actors;
 import package::bind::environment::{environment_brdf, environment_irradiance, environment_radiance};
-import package::bind::frame::{distance_here, frame, frame_scattered};
+import package::bind::frame::{distance_here, environment_sampler, frame, frame_scattered, frame_skin};
 import package::bind::lights::punctual_light;
 import package::bind::maps::shadow_depth;
 import package::bind::shown::shown;
 import package::bind::surface::{Shaded, Surface};
 import package::bind::uv::texture_uv;
+import package::lib::bands::banded;
 import package::lib::brdf::{f0_of_ior, ggx_distribution, schlick, smith_visibility};
 import package::lib::skin::{
     albedo_place, detail_normals, diffused_place, penumbra_place, transmittance_place, wrapped_diffuse,
@@ -158,9 +159,12 @@ fn skin_share(s: Surface, skin: Skinned, lit: f32) -> Share {
     @if(cast_shadow && skin_penumbra) {
         let a = &actors[s.at.actor];
         let width = 1000.0 * material.skin.profile_world_scale * (*a).shadow_spread / max((*a).shadow_scale, 1e-6);
-        let soft = skin_entry(penumbra_place(lit, width));
         // The table is of edges that are wider than light scatters: narrow ones have no place for it.
-        share.spread = mix(share.spread, soft, material.skin.penumbra * saturate(width / material.skin.reach_mm - 0.5));
+        let soft = material.skin.penumbra * saturate(width / material.skin.reach_mm - 0.5);
+        // A count rather than a branch, of which software rasterizers walk both sides.
+        for (var i = 0; i < select(0, 1, soft > 0.0 && lit < 1.0); i++) {
+            share.spread = mix(share.spread, skin_entry(penumbra_place(lit, width)), soft);
+        }
     }
     return share;
 }
@@ -201,8 +205,8 @@ fn skin_scattered(s: Surface) -> vec3f {
     let here = distance_here(s.at.clip_position);
     var sum = vec4f(0.0);
     for (var i = 0; i < 4; i++) {
-        let there = textureLoad(frame_scattered, clamp(at + vec2i(i % 2, i / 2), vec2i(0), last), 0);
-        // Not of what lies behind.
+        let there = textureLoad(frame_scattered, min(at + vec2i(i % 2, i / 2), last), 0);
+        // Not of what lies before or behind.
         sum += vec4f(there.rgb, 1.0) * f32(abs(there.a - here) < 0.01 * here);
     }
     // At borders that of any skin beside.
@@ -212,6 +216,33 @@ fn skin_scattered(s: Surface) -> vec3f {
         sum += vec4f(beside.rgb, 1.0) * f32(beside.a > 0.0);
     }
     return sum.rgb / max(sum.a, 1.0);
+}
+
+// The same where the texture coordinates have it; `unspread` where the actor has no layer.
+@if(skin_texture_space)
+fn skin_of_layer(s: Surface, unspread: vec3f) -> vec3f {
+    let m = &material.skin;
+    let first = actors[s.at.actor].skin_layer;
+    let at = s.at.uv.xy * m.layer_uv.xy + m.layer_uv.zw;
+    let half = 0.5 / vec2f(textureDimensions(frame_skin));
+    var sum = vec4f(0.0);
+    for (var i = 0; i < 4; i++) {
+        let beside = at + half * vec2f(vec2i(i % 2, i / 2) * 2 - 1);
+        sum += textureSampleLevel(frame_skin, environment_sampler, beside, i32(max(first, 0.0) + m.layer), 0.0);
+    }
+    return select(unspread, sum.rgb / max(sum.a, 1e-6), first >= 0.0 && sum.a > 0.0);
+}
+
+// Light that comes round the edge of a toon shade: what the table has where there would be none.
+@if(skin_edge)
+fn skin_edge(s: Surface, skin: Skinned) -> vec3f {
+    let m = &material.skin;
+    let round = skin_entry(diffused_place(s.n_dot_l, abs(skin.curvature))) - saturate(s.n_dot_l);
+    let light = max(round, vec3f(0.0));
+    let strongest = max(light.r, max(light.g, light.b));
+    // At the edge itself it is a seventh or so.
+    let drawn = banded(saturate(strongest * 6.0), m.edge_steps, 0.15);
+    return s.lit * light * (m.edge * drawn / max(strongest, 1e-4));
 }
 
 fn skin_model(s: Surface) -> Shaded {
@@ -237,12 +268,18 @@ fn skin_model(s: Surface) -> Shaded {
         lit.scattered = skin_scattered(s);
         @if(skin_pre_scatter) color = sqrt(s.lit);
     }
+    @if(skin_texture_space) {
+        @if(skin_pre_scatter) color = sqrt(s.lit);
+        @if(skin_pre_scatter) let before = color;
+        @if(!skin_pre_scatter) let before = vec3f(1.0);
+        lit.scattered = skin_of_layer(s, before * (lit.scattered + l.gi));
+    }
     l.direct = color * lit.scattered * left + s.lit * through * left + lit.mirrored;
     let brdf = environment_brdf(skin.n_dot_v, m.roughness);
     let around = (skin.f0 * brdf.x + brdf.y) * m.specular_strength
         * environment_radiance(reflect(-s.view, s.normal), m.roughness);
     l.ambient = around;
-    @if(!skin_screen_space) l.ambient += s.lit * l.gi * left;
+    @if(!skin_screen_space && !skin_texture_space) l.ambient += s.lit * l.gi * left;
     @if(channel_skin_irradiance) shown = skin_irradiance(s);
     @if(channel_skin_scattered) shown = lit.scattered;
     @if(channel_skin_specular) shown = lit.mirrored + around;
@@ -252,7 +289,8 @@ fn skin_model(s: Surface) -> Shaded {
     );
     @if(channel_skin_profile) shown = strip_hue(u32(m.profile_number));
     @if(skin_toon) {
-        let drawn = toon_model(s);
+        var drawn = toon_model(s);
+        @if(skin_edge) drawn.direct += skin_edge(s, skin) * (s.light * (1.0 - drawn.shading));
         l.direct = mix(drawn.direct, l.direct, m.natural);
         l.ambient = mix(drawn.ambient, l.ambient, m.natural);
         l.lit = drawn.lit;

@@ -7,7 +7,8 @@ struct ScatterNumbers {
     mm_per_px: f32,
     count: u32,
     unused: vec2u,
-    // Place in a profile of d = 1, and its radius; of each pixel of two by two, whose mean is as good as all of them.
+    // Place in a profile of d = 1, its radius, and 1/8 pi over the density of places there; of each pixel of two by two, whose mean is
+    // as good as all of them.
     taps: array<array<vec4f, 40>, 4>,
 }
 
@@ -43,13 +44,15 @@ fn fs_main(in: PictureVarying) -> @location(0) vec4f {
     var sum = vec3f(0.0);
     var weights = vec3f(0.0);
     for (var i = 0u; i < taps; i++) {
-        let tap = numbers.taps[pixel][i].xyz * far;
-        let seen = clamp(at + vec2i(round(tap.xy / mm_per_px)), vec2i(0), last);
+        // Down to whole pixels: what reads two by two reads half a pixel beside.
+        let unit = numbers.taps[pixel][i];
+        let tap = unit.xyz * far;
+        let seen = clamp(at + vec2i(floor(tap.xy / mm_per_px)), vec2i(0), last);
         let there = textureLoad(skin_place, seen, 0).xy;
         let deeper = (there.x - place.x) * 1000.0;
         let area = 1.0 / max(fract(there.y) * 2.0, LEAST_COSINE);
         // Of other skin, and from beyond its border, no light comes.
-        let weight = disc_weight(tap.z, deeper, d, far) * select(0.0, area, floor(there.y) == number);
+        let weight = disc_weight(tap.z, deeper, d, unit.w * far * far) * select(0.0, area, floor(there.y) == number);
         sum += textureLoad(irradiance, seen, 0).rgb * weight;
         weights += weight;
     }

@@ -2,12 +2,12 @@
 
 use super::HDR_FORMAT;
 use super::irradiance::IrradianceTargets;
+use crate::render::View;
 use crate::render::bind;
 use crate::render::shaders::Recipe;
 use crate::render::targets::{self, PictureTarget};
 use crate::render::uploads::Uploads;
 use crate::render::variants::Variants;
-use crate::render::View;
 use crate::scene::Camera;
 use crate::skin::{MOST_TAPS, discs};
 use crate::{Gpu, Result};
@@ -28,7 +28,7 @@ struct ScatterNumbers {
     mm_per_px: f32,
     count: u32,
     unused: [u32; 2],
-    /// Place in a profile of d = 1, and its radius; of each pixel of two by two.
+    /// Place in a profile of d = 1, its radius, and 1/8 pi over the density of places there; of each pixel of two by two.
     taps: [[[f32; 4]; MOST_TAPS]; 4],
 }
 
@@ -59,12 +59,7 @@ impl ScatterPass {
 
     pub fn group(&self, gpu: &Gpu, read: &IrradianceTargets) -> wgpu::BindGroup {
         let view = wgpu::BindingResource::TextureView;
-        let resources = [
-            self.numbers.as_entire_binding(),
-            view(&read.light),
-            view(&read.distance),
-            view(&read.place),
-        ];
+        let resources = [self.numbers.as_entire_binding(), view(&read.light), view(&read.distance), view(&read.place)];
         bind::group(gpu, "scatter", &self.layout, resources)
     }
 

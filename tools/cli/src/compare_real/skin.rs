@@ -59,7 +59,11 @@ impl<'a> Name<'a> {
 
     /// How light comes through: ears and wedges have no baked thickness, and their shadow maps know it.
     fn transmission(&self) -> Transmission {
-        if self.is_thin() { Transmission::Thick } else { Transmission::Thin }
+        if self.is_thin() {
+            Transmission::Thick
+        } else {
+            Transmission::Thin
+        }
     }
 
     /// Whether it is there for the light that comes through.
@@ -116,7 +120,8 @@ pub(super) fn shot(
         };
     }
     let is_wide = method == SkinDiffuse::PreIntegrated;
-    scene.self_shadow = Some(SelfShadow { soft_width_m: if is_wide { PENUMBRA_M } else { SHADOW.soft_width_m }, ..SHADOW });
+    scene.self_shadow =
+        Some(SelfShadow { soft_width_m: if is_wide { PENUMBRA_M } else { SHADOW.soft_width_m }, ..SHADOW });
     Ok(Shot { scenes: vec![scene], scale: SCALE })
 }
 

@@ -4,7 +4,7 @@ use hikage::Look;
 use hikage::color::{LinearRgb, Srgb};
 use hikage::material::{
     Base, Blink, Decal, Decals, DepthRim, Dissolve, DitherFade, Emission, Fire, Fluff, Gem, Glow, Hair, InnerLines,
-    Material, Shading, ShapedHighlight, Stocking, TextureRef, Toon,
+    Material, Shading, ShapedHighlight, Skin, SkinDiffuse, Stocking, TextureRef, Toon,
 };
 use hikage::motion::Stance;
 use hikage::scene::{Bloom, Framing, Image, Post, PunctualLight, Sampler, Scene, Texture, ToneCurve};
@@ -95,7 +95,46 @@ pub(super) fn all() -> Vec<Sheet> {
     list.extend(ornaments());
     list.extend(whole());
     list.push(natural());
+    list.push(skin());
     list
+}
+
+/// Skin: ways to find the light that scatters, drawn skin, and other profiles.
+fn skin() -> Sheet {
+    let face = |yaw: f32, light: f32| Panel {
+        caption: format!("camera {yaw:.0}\u{b0}, light {light:.0}\u{b0}"),
+        camera: Camera::Framed(Framing::Face, yaw),
+        light_deg: [light, 20.0],
+        ..Panel::default()
+    };
+    let panels = || [face(0.0, 30.0), face(30.0, 75.0), face(-60.0, 30.0), face(90.0, 200.0)];
+    let row = |change| Row { is_plain: true, change, panels: panels().into() };
+    Sheet {
+        name: "skin",
+        title: "Skin",
+        caption: "Scattering skin (skin) in the natural look: none of it (lambert), by a table of curvature (pre-integrated), by \
+                  spreading the light of the picture (screen-space), then dark skin, jade and wax; last the toon shade of her file \
+                  with a warm band at its edge (drawn).",
+        rows: vec![
+            row(|scene| skinned(scene, Skin { diffuse: SkinDiffuse::Lambert, ..Skin::default() })),
+            row(|scene| skinned(scene, Skin::default())),
+            row(|scene| skinned(scene, Skin { diffuse: SkinDiffuse::ScreenSpace, ..Skin::default() })),
+            row(|scene| skinned(scene, Skin::skin_dark())),
+            row(|scene| skinned(scene, Skin::jade())),
+            row(|scene| skinned(scene, Skin::wax())),
+            row(|scene| {
+                for part in ["Face", "Body_Skin"] {
+                    each_material(scene, part, |m| m.skin = Some(Skin::drawn()));
+                }
+            }),
+        ],
+    }
+}
+
+/// The natural look with such skin.
+fn skinned(scene: &mut Scene, skin: Skin) {
+    Look::Natural.apply(scene);
+    scene.materials.iter_mut().filter_map(|m| m.skin.as_mut()).for_each(|of| *of = skin);
 }
 
 /// Natural light: her hair in its own colour, then in those of presets, then drawn and half drawn.
