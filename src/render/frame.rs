@@ -386,7 +386,7 @@ impl Frame {
         Ok(())
     }
 
-    /// Light that falls on skin and spreads over its texture coordinates; only where something has changed that it depends on.
+    /// Light that falls on skin and spreads over its texture coordinates; only where something has changed that it shows.
     fn encode_skin(&mut self, r: &Renderer, encoder: &mut wgpu::CommandEncoder, stage: &mut Stage) -> Result<()> {
         let has_skin = stage.bodies.list.iter().any(|body| body.skin_layers().next().is_some());
         if !has_skin || !stage.bodies.stale_skin(&stage.lights, stage.time_s) {

@@ -16,7 +16,6 @@ use super::pass::{DEPTH_FORMAT, Mark, Picture, Sight, bangs_shadow, fibre, glow,
 use super::shaders::{Recipe, Shaders, file};
 use super::variants::Request;
 use crate::material::{About, Alpha, AlphaMode, Blending, Field, Kind, LISTED, Material, Shading, Surroundings};
-use crate::motion::Driven;
 use crate::sdf::FaceMap;
 
 /// Values of fields that hold all that they can: every texture, every part.

@@ -49,8 +49,8 @@ pub(crate) fn metres_per_uv(scene: &Scene) -> Vec<[f32; 2]> {
     sums.into_iter().map(mean).collect()
 }
 
-/// Least texture coordinates of the first set on the surfaces of each material, and how far the others go beyond them; nowhere
-/// where there are none. Only of materials whose light is spread over them.
+/// Least texture coordinates of the first set on the surfaces of each material, and how far the others go beyond them;
+/// nowhere where there are none. Only of materials whose light is spread over them.
 pub(crate) fn uv_boxes(scene: &Scene) -> Vec<[[f32; 2]; 2]> {
     let parts =
         |material: usize| scene.meshes.iter().flat_map(|m| &m.primitives).filter(move |p| p.material == material);

@@ -64,8 +64,8 @@ impl Side {
 }
 
 impl Seams {
-    /// Of parts with their places at rest; `texel_of` places texture coordinates among `side` texels, of which those as near
-    /// as `reach` are near.
+    /// Of parts with their places at rest; `texel_of` places texture coordinates among `side` texels, of which those as
+    /// near as `reach` are near.
     pub fn of<'a>(
         parts: impl Iterator<Item = (&'a Primitive, Mat4)>,
         texel_of: impl Fn(Vec2) -> Vec2,
