@@ -68,11 +68,10 @@ fn rough(material: &mut Material, roughness: f32) {
 
 /// Light scatters in it; what a file says of its roughness stays.
 fn skin(material: &mut Material) {
-    let roughness = match (&material.shading, material.origin) {
-        (Shading::Standard(surface), Origin::Pbr) => surface.roughness.clamp(0.3, 0.7),
-        _ => 0.5,
-    };
-    material.skin = Some(Skin { roughness, ..Skin::default() });
+    rough(material, 0.5);
+    if let Shading::Standard(surface) = &material.shading {
+        material.skin = Some(Skin { roughness: surface.roughness.clamp(0.3, 0.7), ..Skin::default() });
+    }
 }
 
 fn mouth(material: &mut Material) {

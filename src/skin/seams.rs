@@ -143,7 +143,7 @@ mod tests {
     #[test]
     fn steps_lead_to_the_same_place_of_the_surface() {
         // A strip of two squares whose charts are turned and of another size.
-        let positions = vec![[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+        let positions = [[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
         let moved = |p: &[f32; 3]| [p[0] + 1.0, p[1], p[2]];
         let uvs = vec![[0.1, 0.1], [0.3, 0.1], [0.3, 0.3], [0.1, 0.3]];
         // u up, v to the left.

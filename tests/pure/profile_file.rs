@@ -99,7 +99,7 @@ fn looks_refer_to_profiles_by_name_by_file_or_write_them() {
     let jade = DiffusionProfile::named("jade").expect("a preset");
     assert_eq!(skin(&folder, "skin = { profile = \"jade\" }"), Ok(by(jade)));
     let over = skin(&folder, "skin = { preset = \"skin_dark\", profile = \"jade\", diffuse = \"lambert\" }");
-    assert_eq!(over, Ok(Skin { diffuse: SkinDiffuse::Lambert, ..by(jade) }));
+    assert_eq!(over, Ok(Skin { diffuse: SkinDiffuse::Lambert, ..Skin { profile: jade, ..Skin::skin_dark() } }));
 }
 
 #[test]
