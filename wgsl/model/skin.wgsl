@@ -159,11 +159,13 @@ fn skin_share(s: Surface, skin: Skinned, lit: f32) -> Share {
     @if(cast_shadow && skin_penumbra) {
         let a = &actors[s.at.actor];
         let width = 1000.0 * material.skin.profile_world_scale * (*a).shadow_spread / max((*a).shadow_scale, 1e-6);
-        // The table is of edges that are wider than light scatters: narrow ones have no place for it.
-        let soft = material.skin.penumbra * saturate(width / material.skin.reach_mm - 0.5);
-        // A count rather than a branch, of which software rasterizers walk both sides.
-        for (var i = 0; i < select(0, 1, soft > 0.0 && lit < 1.0); i++) {
-            share.spread = mix(share.spread, skin_entry(penumbra_place(lit, width)), soft);
+        // Beyond a narrow edge nothing is known of it: there the table is stretched to no light and to all of it. A count rather
+        // than a branch, of which software rasterizers walk both sides.
+        for (var i = 0; i < select(0, 1, lit > 0.0 && lit < 1.0); i++) {
+            let dark = skin_entry(penumbra_place(0.0, width));
+            let all = skin_entry(penumbra_place(1.0, width));
+            let soft = (skin_entry(penumbra_place(lit, width)) - dark) / max(all - dark, vec3f(1e-3));
+            share.spread = mix(share.spread, soft, material.skin.penumbra);
         }
     }
     return share;

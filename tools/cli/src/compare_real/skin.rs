@@ -20,8 +20,8 @@ pub(super) const METHODS: [SkinDiffuse; 5] = [
 
 /// Sharp edges: three texels of the map, a few hundredths of a millimetre on a head.
 const SHADOW: SelfShadow = SelfShadow { side: 4096, soft_width_m: 0.0001, bias_texels: 2.0 };
-/// The width that the table of penumbras asks for: wider than light scatters.
-const PENUMBRA_M: f32 = 0.012;
+/// Edges for the table of penumbras, which has no others: five texels of a coarse map, 3 mm on a head.
+const PENUMBRA: SelfShadow = SelfShadow { side: 512, soft_width_m: 0.012, bias_texels: 2.0 };
 /// Pixels of ours along a side of one of the reference.
 const SCALE: u32 = 4;
 
@@ -119,9 +119,7 @@ pub(super) fn shot(
             ..Material::default()
         };
     }
-    let is_wide = method == SkinDiffuse::PreIntegrated;
-    scene.self_shadow =
-        Some(SelfShadow { soft_width_m: if is_wide { PENUMBRA_M } else { SHADOW.soft_width_m }, ..SHADOW });
+    scene.self_shadow = Some(if method == SkinDiffuse::PreIntegrated { PENUMBRA } else { SHADOW });
     Ok(Shot { scenes: vec![scene], scale: SCALE })
 }
 
