@@ -119,7 +119,11 @@ pub(super) fn shot(
             ..Material::default()
         };
     }
-    scene.self_shadow = Some(if method == SkinDiffuse::PreIntegrated { PENUMBRA } else { SHADOW });
+    scene.self_shadow = Some(if method == SkinDiffuse::PreIntegrated {
+        PENUMBRA
+    } else {
+        SHADOW
+    });
     Ok(Shot { scenes: vec![scene], scale: SCALE })
 }
 
