@@ -66,7 +66,7 @@ fn rough(material: &mut Material, roughness: f32) {
     }
 }
 
-/// Light scatters in it; what a file says of its roughness stays.
+/// Light scatters in it; the roughness of a file counts as far as skin may have it.
 fn skin(material: &mut Material) {
     rough(material, 0.5);
     if let Shading::Standard(surface) = &material.shading {

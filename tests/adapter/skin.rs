@@ -44,15 +44,15 @@ fn colored(albedo: f32, skin: Skin) -> Material {
     }
 }
 
-/// From +Z, with so many mm to a pixel where z = 0, in a light of strength 1.
-fn seen(size: [u32; 2], mm_per_px: f32, distance: f32, to_light: Vec3) -> Shot {
+/// From an eye on the axis Z, with so many mm to a pixel where z = 0, in a light of strength 1.
+pub(super) fn seen(size: [u32; 2], mm_per_px: f32, eye_z: f32, to_light: Vec3) -> Shot {
     let half_height = 0.0005 * mm_per_px * size[1] as f32;
     Shot {
         size,
         camera: Camera {
-            eye: Vec3::Z * distance,
+            eye: Vec3::Z * eye_z,
             target: Vec3::ZERO,
-            fov_y_rad: 2.0 * (half_height / distance).atan(),
+            fov_y_rad: 2.0 * (half_height / eye_z.abs()).atan(),
             near: 0.05,
             ..Camera::default()
         },

@@ -3,13 +3,13 @@
 use std::f32::consts::PI;
 
 use glam::Vec3;
-use hikage::color::LinearRgb;
 use hikage::material::{Material, Skin, SkinDiffuse};
 use hikage::picture::read_linear;
-use hikage::scene::{Ambient, Camera, DirectionalLight, Lights, Primitive, Scene};
+use hikage::scene::{Primitive, Scene};
 use hikage::skin::DiffusionProfile;
-use hikage::{Background, Error, Output, Renderer, wgpu};
+use hikage::{Error, Output, Renderer, wgpu};
 
+use super::skin;
 use crate::support::{Shot, gpu, scene, sphere, square, staged, target};
 
 const SIDE: usize = 128;
@@ -25,26 +25,9 @@ fn over_uv() -> Material {
     white(SkinDiffuse::TextureSpace)
 }
 
-/// The origin as an eye on the axis Z sees it, in the key light alone.
+/// The origin as an eye on the axis Z sees it.
 fn seen(eye_z: f32, to_light: Vec3) -> Shot {
-    let half_height = 0.0005 * MM_PER_PX * SIDE as f32;
-    Shot {
-        size: [SIDE as u32; 2],
-        camera: Camera {
-            eye: Vec3::Z * eye_z,
-            target: Vec3::ZERO,
-            fov_y_rad: 2.0 * (half_height / eye_z.abs()).atan(),
-            near: 0.05,
-            ..Camera::default()
-        },
-        lights: Lights {
-            directional: DirectionalLight { to_light, ..DirectionalLight::default() },
-            ambient: Ambient::uniform(LinearRgb::BLACK),
-            ..Lights::default()
-        },
-        background: Background::Transparent,
-        ..Shot::default()
-    }
+    skin::seen([SIDE as u32; 2], MM_PER_PX, eye_z, to_light)
 }
 
 /// Linear light, row by row.
