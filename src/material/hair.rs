@@ -246,7 +246,7 @@ impl Section for Hair {
         on.set("strands_by_vertex", self.flow_map.is_none());
     }
 
-    fn generated(&self) -> Option<(&'static str, Generated)> {
+    fn generated(&self, _: &Surroundings<'_>) -> Option<(&'static str, Generated)> {
         let of = &self.fibre;
         let table = Generated::Fibre {
             width: of.width().to_bits(),

@@ -133,7 +133,8 @@ pub trait Section: Fields {
     }
 
     /// A texture that is made of its numbers, by name; shaders read it as `SECTION_NAME`.
-    fn generated(&self) -> Option<(&'static str, Generated)> {
+    fn generated(&self, of: &Surroundings<'_>) -> Option<(&'static str, Generated)> {
+        let _ = of;
         None
     }
 

@@ -18,8 +18,10 @@ pub enum SkinDiffuse {
     /// By a table of curvature and angle (Penner 2011).
     #[default]
     PreIntegrated,
-    /// By spreading the light of the picture (Golubev 2018).
+    /// By spreading the light of the picture along its rows and columns (after Jimenez et al. 2015).
     ScreenSpace,
+    /// By discs over the picture (Golubev 2018): for what is not flat over the reach of its light.
+    ScreenSpaceDisc,
     /// By spreading light over the texture coordinates (d'Eon and Luebke 2007), of which each place must be one of the surface.
     TextureSpace,
 }
@@ -53,12 +55,14 @@ crate::section! {
             ("skin-scattered", "The same after it has scattered."),
             ("skin-specular", "What skin mirrors."),
             ("skin-thickness", "Thickness of skin: white is 10 mm and more."),
+            ("skin-occlusion", "Share of light from all around that nothing hides from skin: black is none."),
             ("skin-curvature", "Curvature of skin: white is 0.5/mm and more; blue where it is hollow."),
             ("skin-profile", "Diffusion profiles of skin, a colour each."),
         ],
     }
     {
-        /// How light that scatters is found: `lambert`, `wrapped`, `pre-integrated`, `screen-space` or `texture-space`.
+        /// How light that scatters is found: `lambert`, `wrapped`, `pre-integrated`, `screen-space`,
+        /// `screen-space-disc` or `texture-space`.
         diffuse: SkinDiffuse = SkinDiffuse::PreIntegrated;
         /// 1 is lit skin, 0 the toon shading with its warm edge.
         natural: f32 = 1.0, in 0.0..=1.0;
@@ -68,7 +72,8 @@ crate::section! {
         wrap: f32 = 0.3, in 0.0..=1.0;
         /// Whether that is as it is commonly written, which adds light.
         wrap_as_written: bool = false;
-        /// Places that `screen-space` and `texture-space` read: 11 quick, 17 good, 40 best.
+        /// Places that light comes from in `screen-space`, of both lines together, `screen-space-disc` and `texture-space`: 11
+        /// quick, 17 good, 40 best.
         taps: u32 = 17, in 4..=40;
         /// What is mirrored: `blinn-phong`, `kelemen`, `ggx` or `dual-ggx`.
         specular: SkinSpecular = SkinSpecular::DualGgx;
@@ -82,7 +87,7 @@ crate::section! {
         lobe_mix: f32 = 0.85, in 0.0..=1.0;
         /// Curvature in place of the mesh's, red, linear: 1 is 1/mm.
         curvature_map: Option<TextureRef> = None, read LINEAR;
-        /// What curvature is multiplied by.
+        /// What curvature is multiplied by, and so the width of a warm edge.
         curvature_scale: f32 = 1.0, in 0.0..=10.0;
         /// Thickness in place of the mesh's, red, linear: 0 and 1 stand for the profile's remap.
         thickness_map: Option<TextureRef> = None, read LINEAR;
@@ -90,14 +95,20 @@ crate::section! {
         detail: f32 = 1.0, in 0.0..=1.0;
         /// How far the edges of shadows scatter.
         penumbra: f32 = 1.0, in 0.0..=1.0;
+        /// How far skin takes less of the light from all around where hair, clothes or other skin within 100 mm hide it, and how far it
+        /// mirrors less of it there: 0 not at all, 1 as the mesh at rest has it (Jimenez et al. 2016; Lagarde and de Rousiers 2014).
+        occlusion: f32 = 1.0, in 0.0..=1.0;
         /// Share of light that comes through.
         transmission: f32 = 1.0, in 0.0..=1.0;
         /// Whether that follows a traced volume, in which more light comes through a slab than the profile says (red 1.3 times at
         /// 1 mm, 3 times at 6 mm); round bodies, whose light leaves at their sides, lie between the two.
         transmission_of_volume: bool = false;
-        /// Share of the warm light round the edge of a toon shade, where it is drawn by normals; wider where a surface is rounder.
-        edge: f32 = 0.0, in 0.0..=4.0;
-        /// Bands of that, as painters cut it; 0 for a smooth one.
+        /// Share of warm light along the border of a toon shade, wherever that is drawn: by normals, by a face's threshold map or by
+        /// a shadow that is cast; 0 none, 1 nothing else. It reaches half as far as light below the surface (3.9 mm in skin, times
+        /// `curvature_scale`), round bodies over a wider angle, at most 34 degrees; beside a cast shadow as far as that is filtered.
+        /// Its hue is that of light which has come so far (Christensen and Burley 2015).
+        edge: f32 = 0.0, in 0.0..=1.0;
+        /// Bands of equal steps in that, as painters cut it; 0 for a smooth one.
         edge_steps: u32 = 0, in 0..=8;
     }
     presets {
@@ -113,8 +124,15 @@ crate::section! {
         milk { profile: profile("milk"), specular: SkinSpecular::Ggx, roughness: 0.15 }
         /// Polished marble.
         marble { profile: profile("marble"), specular: SkinSpecular::Ggx, roughness: 0.3 }
-        /// Drawn skin: toon shade with a warm band at its edge, wider where a surface is rounder.
-        drawn { natural: 0.0, edge: 0.6, edge_steps: 2, curvature_scale: 4.0 }
+        /// Drawn skin: toon shade with a warm band along its border, over a wider angle where a surface is rounder.
+        drawn { natural: 0.0, edge: 0.6, curvature_scale: 2.0 }
+    }
+}
+
+impl Skin {
+    /// Whether nothing of it is lit as skin.
+    fn is_drawn(&self, of: &Surroundings<'_>) -> bool {
+        matches!(of.material.shading, Shading::Toon(_)) && self.natural == 0.0
     }
 }
 
@@ -135,18 +153,23 @@ impl Section for Skin {
 
     fn options(&self, on: &mut Options, of: &Surroundings<'_>) {
         let is_toon = matches!(of.material.shading, Shading::Toon(_));
-        on.set("skin_toon", is_toon && self.natural < 1.0);
+        on.set("skin_vertex", true);
         on.set("skin_edge", is_toon && self.natural < 1.0 && self.edge > 0.0);
+        if self.is_drawn(of) {
+            return on.set("skin_drawn", true);
+        }
+        on.set("skin_toon", is_toon && self.natural < 1.0);
         // What is seen through is not in the picture of light on skin.
         let is_seen_through = of.material.drawn_mode() == AlphaMode::Blend;
         let name = match self.diffuse {
             SkinDiffuse::Lambert => "skin_lambert",
             SkinDiffuse::Wrapped => "skin_wrapped",
-            SkinDiffuse::ScreenSpace if !is_seen_through => "skin_screen_space",
+            SkinDiffuse::ScreenSpace | SkinDiffuse::ScreenSpaceDisc if !is_seen_through => "skin_screen_space",
             SkinDiffuse::TextureSpace => "skin_texture_space",
             _ => "skin_pre_integrated",
         };
         on.set(name, true);
+        on.set("skin_disc", name == "skin_screen_space" && self.diffuse == SkinDiffuse::ScreenSpaceDisc);
         // Which actor's layers it reads.
         on.set("actor", name == "skin_texture_space");
         on.set("skin_penumbra", name == "skin_pre_integrated" && self.penumbra > 0.0);
@@ -157,14 +180,13 @@ impl Section for Skin {
             SkinSpecular::DualGgx => "skin_dual_ggx",
         };
         on.set(name, true);
-        on.set("skin_vertex", true);
         on.set("skin_wrap_as_written", self.wrap_as_written);
         on.set("skin_of_volume", self.transmission_of_volume);
         on.set("skin_pre_scatter", self.profile.texturing == Texturing::PreAndPost);
         on.set("skin_thick", self.profile.transmission == Transmission::Thick);
     }
 
-    fn generated(&self) -> Option<(&'static str, Generated)> {
+    fn generated(&self, on: &Surroundings<'_>) -> Option<(&'static str, Generated)> {
         let of = SkinTable {
             distances: self.profile.scattering_distance_mm.map(f32::to_bits),
             ior: self.profile.ior.to_bits(),
@@ -173,7 +195,8 @@ impl Section for Skin {
             lobes: self.lobes.map(f32::to_bits),
             lobe_mix: self.lobe_mix.to_bits(),
         };
-        Some(("table", Generated::Skin(of)))
+        // Toon shade has no room for another texture beside those of a face.
+        (!self.is_drawn(on)).then_some(("table", Generated::Skin(of)))
     }
 }
 

@@ -11,6 +11,7 @@ use super::looks::Looks;
 use super::made::lock;
 use super::pass::bangs_shadow::BangsFit;
 use super::pass::deform::DeformSource;
+use super::pass::scatter::ScatterTaps;
 use super::pass::shadow::{self, ShadowFit};
 use super::pass::{Picture, Sight};
 use super::pass::{glow, irradiance, irradiance_uv, prepass, velocity};
@@ -72,8 +73,8 @@ pub(crate) struct CharacterData {
     pub has_inner_lines: bool,
     /// Whether time moves what is cut out of a material.
     pub cuts_move: bool,
-    /// Most places that are read for light that spreads over the picture; 0 where none does.
-    pub scatter_taps: usize,
+    /// Most taps that are asked for, of light that spreads over the picture.
+    pub scatter: ScatterTaps,
     /// Skin whose light is spread over texture coordinates, a layer for each.
     pub skin_layers: Vec<SkinPart>,
     /// Most shells of a coat.

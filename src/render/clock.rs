@@ -12,6 +12,8 @@ pub(crate) enum Timed {
     BangsShadow,
     Shadow,
     Prepass,
+    Irradiance,
+    Scatter,
     Glow,
     Color,
     Post,
@@ -19,8 +21,17 @@ pub(crate) enum Timed {
 
 impl Timed {
     /// All of them, in the order of the frame.
-    pub const ALL: [Self; 7] =
-        [Self::Deform, Self::BangsShadow, Self::Shadow, Self::Prepass, Self::Glow, Self::Color, Self::Post];
+    pub const ALL: [Self; 9] = [
+        Self::Deform,
+        Self::BangsShadow,
+        Self::Shadow,
+        Self::Prepass,
+        Self::Irradiance,
+        Self::Scatter,
+        Self::Glow,
+        Self::Color,
+        Self::Post,
+    ];
 
     /// Its name in reports.
     pub fn name(self) -> &'static str {
@@ -29,6 +40,8 @@ impl Timed {
             Self::BangsShadow => "bangs shadow",
             Self::Shadow => "shadow",
             Self::Prepass => "depth",
+            Self::Irradiance => "light on skin",
+            Self::Scatter => "scattering",
             Self::Glow => "glow",
             Self::Color => "colour",
             Self::Post => "post",

@@ -144,7 +144,7 @@ impl Frame {
             self.encode_prepass(r, encoder, stage, take, clock)?;
         }
         // Light that falls on skin, and spreads in it.
-        self.encode_scattering(r, encoder, stage, take)?;
+        self.encode_scattering(r, encoder, stage, take, clock)?;
         // How far surfaces have moved, where a picture follows another.
         self.encode_velocity(r, encoder, stage, take)?;
         // Light that blooms, and how far it spreads.
@@ -431,10 +431,11 @@ impl Frame {
         encoder: &mut wgpu::CommandEncoder,
         stage: &Stage,
         take: &Take<'_>,
+        clock: &Clock,
     ) -> Result<()> {
         let actors = actors(stage, &self.group, take.view.first_person).filter(|_| scatters(stage, take));
         if let (Some(actors), Some(scattering)) = (actors, &self.scattering) {
-            scattering.encode(r, &mut self.uploads, encoder, actors, (take.view, take.picture.sight))?;
+            scattering.encode(r, &mut self.uploads, encoder, actors, (take.view, take.picture.sight), clock)?;
         }
         Ok(())
     }
@@ -555,7 +556,7 @@ fn has_surfaces(stage: &Stage) -> bool {
 /// Whether light scatters in something on it over the picture.
 fn scatters(stage: &Stage, take: &Take<'_>) -> bool {
     let is_floor = matches!(take.shown, Shown::Floor(_));
-    !is_floor && stage.bodies.troupes.iter().any(|troupe| troupe.data().scatter_taps > 0)
+    !is_floor && stage.bodies.troupes.iter().any(|troupe| troupe.data().scatter.is_any())
 }
 
 /// Whether something on it is weighted.

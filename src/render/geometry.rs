@@ -158,8 +158,14 @@ impl Geometry {
         let mut materials_by_id = vec![0; parts.len()];
         let is_skin = |p: &Primitive| scene.materials.get(p.material).is_some_and(|m| m.skin.is_some());
         let skin: Vec<_> = parts.iter().filter(|part| is_skin(part.2)).map(|part| (part.2, part.4)).collect();
+        // What is drawn on skin lies on it, and hides nothing from it.
+        let is_on_skin = |p: &Primitive| matches!(p.role, Role::Lash | Role::Brow | Role::EyeHighlight);
+        let hides = |node: usize, p: &Primitive| {
+            !is_skin(p) && !blend(p) && !is_on_skin(p) && sight(scene, &in_head, node).others
+        };
+        let hiding: Vec<_> = parts.iter().filter(|part| hides(part.1, part.2)).map(|part| (part.2, part.4)).collect();
         let scales = scene.materials.iter().filter_map(|m| Some(m.skin.as_ref()?.profile.world_scale));
-        let mut skin = skin::measured(&skin, scales.fold(f32::MAX, f32::min)).into_iter();
+        let mut skin = skin::measured(&skin, &hiding, scales.fold(f32::MAX, f32::min)).into_iter();
         for (id, node, primitive, group, rest_matrix) in &parts {
             let sight = sight(scene, &in_head, *node);
             let material = scene.materials.get(primitive.material);
@@ -226,12 +232,8 @@ impl Geometry {
             let bare = strips.map_or([255; 4], |s| s.colors[v]);
             let color = primitive.colors.get(v).map_or(bare, |c| c.map(|x| (x.clamp(0.0, 1.0) * 255.0).round() as u8));
             let part = id | strips.map_or(0, |s| s.numbers[v] << 16);
-            let skin = skin
-                .as_ref()
-                .and_then(|s| s.get(v))
-                .copied()
-                .unwrap_or_default()
-                .map(|x| half::f16::from_f32(x).to_bits());
+            let [k, t, o] = skin.as_ref().and_then(|s| s.get(v)).copied().unwrap_or_default();
+            let skin = [k, t, o, 0.0].map(|x| half::f16::from_f32(x).to_bits());
             self.static_vertices.push(StaticVertex { uv: [u0, v0, u1, v1], color, part, skin });
             self.vertex_refs.push([group_index, self.morphs.len() as u32]);
             morphs.take(v as u32, &mut self.morphs);
@@ -303,8 +305,8 @@ struct Prepared<'a> {
     strands: Option<&'a [[f32; 4]]>,
     /// Another order of triangles.
     strips: Option<&'a Arranged>,
-    /// Curvature and thickness.
-    skin: Option<Vec<[f32; 2]>>,
+    /// Curvature, thickness and occlusion.
+    skin: Option<Vec<[f32; 3]>>,
 }
 
 /// Nodes that are the head or hang on it; empty without a character.

@@ -96,7 +96,7 @@ impl Composition {
                     slots.push(Slot { name: format!("{}_{last}", about.key), read, source });
                 }
             }));
-            if let Some((name, generated)) = section.generated() {
+            if let Some((name, generated)) = section.generated(of) {
                 let name = format!("{}_{name}", about.key);
                 slots.push(Slot { name, read: Read::RAMP, source: Source::Generated(generated) });
             }

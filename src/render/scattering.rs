@@ -1,8 +1,9 @@
 //! Light that scatters in skin, over the picture: what falls on it is drawn apart, spread, and read by its colour.
 
+use super::clock::{Clock, Timed};
 use super::draw_list::Actors;
-use super::pass::irradiance::{self, IrradianceInputs, IrradianceTargets};
-use super::pass::scatter::ScatterPass;
+use super::pass::irradiance::{self, IrradianceInputs, IrradianceTargets, SKIN_LIGHT_FORMAT};
+use super::pass::scatter::{ScatterGroups, ScatterPass, ScatterTaps, ScatterTargets};
 use super::pass::{HDR_FORMAT, Sight};
 use super::uploads::Uploads;
 use super::{Renderer, View, targets};
@@ -13,7 +14,8 @@ use crate::Result;
 pub(super) struct Scattering {
     irradiance: IrradianceTargets,
     pass: ScatterPass,
-    group: wgpu::BindGroup,
+    groups: ScatterGroups,
+    across: wgpu::TextureView,
     /// What skin reads.
     pub scattered: wgpu::TextureView,
 }
@@ -29,8 +31,9 @@ impl Scattering {
             None => ScatterPass::new(&r.variants)?,
         };
         let irradiance = IrradianceTargets::new(r.gpu(), size);
+        let across = targets::sampled(r.gpu(), "scattered across", size, SKIN_LIGHT_FORMAT);
         let scattered = targets::sampled(r.gpu(), "scattered", size, HDR_FORMAT);
-        *made = Some(Self { group: pass.group(r.gpu(), &irradiance), irradiance, pass, scattered });
+        *made = Some(Self { groups: pass.groups(r.gpu(), &irradiance, &across), irradiance, pass, across, scattered });
         Ok(())
     }
 
@@ -42,13 +45,16 @@ impl Scattering {
         encoder: &mut wgpu::CommandEncoder,
         actors: Actors<'_>,
         (view, sight): (&View, Sight<'_>),
+        clock: &Clock,
     ) -> Result<()> {
         let troupes = &actors.bodies.troupes;
         let all = troupes.iter().map(|t| t.data().irradiances(&r.variants, sight)).collect::<Result<Vec<_>>>()?;
         let drawn = &|troupe: usize, draw: usize| all[troupe][draw].as_ref();
-        let taps = troupes.iter().map(|t| t.data().scatter_taps).max().unwrap_or(0);
-        irradiance::encode(encoder, &IrradianceInputs { actors, targets: &self.irradiance, drawn });
-        self.pass.encode(uploads, encoder, &self.group, (view, taps), &self.scattered);
+        let taps = ScatterTaps::most(troupes.iter().map(|t| t.data().scatter));
+        let inputs = IrradianceInputs { actors, targets: &self.irradiance, drawn };
+        irradiance::encode(encoder, &inputs, clock.render(Timed::Irradiance));
+        let into = ScatterTargets { depth: &self.irradiance.depth, across: &self.across, scattered: &self.scattered };
+        self.pass.encode(uploads, encoder, &self.groups, (view, taps), &into, clock);
         Ok(())
     }
 }

@@ -10,6 +10,7 @@ use super::looks::{Looks, bound_textures, stride};
 use super::material::{self, Composition, Source};
 use super::pass::bangs_shadow::{self, BangsAtlas, BangsFit};
 use super::pass::deform::{DeformBuffers, DeformSource};
+use super::pass::scatter::ScatterTaps;
 use super::pass::shadow::{self, ShadowFit, ShadowMap};
 use super::pass::{Picture, Sight};
 use super::skin_layers::SkinPart;
@@ -170,9 +171,9 @@ impl Renderer {
         let sight = Sight { hdr: scene.post.is_some(), environment, ..Sight::default() };
         let requests = draw_list::requests(scene, &draws, &looks.compositions, &Picture::new(&gpu, self.output, sight));
         let has_prepass = requests.iter().any(|p| p.prepass.is_some());
-        let scattering = draws.iter().filter(|d| looks.compositions[d.material].is_on("skin_screen_space"));
-        let scatter_taps =
-            scattering.filter_map(|d| Some(looks.sources[d.material].skin?.taps as usize)).max().unwrap_or(0);
+        let skin = draws.iter().filter(|d| looks.compositions[d.material].is_on("skin_screen_space"));
+        let scatter =
+            ScatterTaps::most(skin.filter_map(|d| looks.sources[d.material].skin.as_ref()).map(ScatterTaps::of));
         let of_skin = (0..scene.materials.len()).filter(|i| scene.materials[*i].scatters_over_uv());
         let skin_layers =
             of_skin.map(|i| SkinPart::new(&gpu, scene, i, looks.uv_boxes[i], looks.metres_per_uv[i])).collect();
@@ -205,7 +206,7 @@ impl Renderer {
             has_prepass,
             has_inner_lines,
             cuts_move,
-            scatter_taps,
+            scatter,
             shells: shells.unwrap_or(0),
             rig: geometry.rig,
             part_materials: geometry.part_materials,

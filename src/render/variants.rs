@@ -220,7 +220,7 @@ const VERTEX_BUFFERS: [Option<wgpu::VertexBufferLayout<'static>>; 2] = [
     Some(wgpu::VertexBufferLayout {
         array_stride: size_of::<StaticVertex>() as u64,
         step_mode: wgpu::VertexStepMode::Vertex,
-        attributes: &wgpu::vertex_attr_array![0 => Float32x4, 1 => Unorm8x4, 2 => Uint32, 7 => Float16x2],
+        attributes: &wgpu::vertex_attr_array![0 => Float32x4, 1 => Unorm8x4, 2 => Uint32, 7 => Float16x4],
     }),
     Some(wgpu::VertexBufferLayout {
         array_stride: size_of::<Instance>() as u64,

@@ -71,8 +71,8 @@ pub struct StaticVertex {
     pub uv: [f32; 4],
     pub color: [u8; 4],
     pub part: u32,
-    /// Of skin: curvature, 1/m, and thickness, m, as half floats, character space.
-    pub skin: [u16; 2],
+    /// Of skin: curvature, 1/m, thickness, m, and occlusion, 0 to 1, as half floats, character space; the last is 0.
+    pub skin: [u16; 4],
 }
 
 /// Second stream of every draw: what an instance stands for, as `wgsl/bind/vertex.wgsl` reads it.

@@ -4,8 +4,6 @@ use std::collections::HashMap;
 
 use glam::DVec3;
 
-use crate::scene::Primitive;
-
 /// Greatest curvature either way, 1/m: a radius of 1 mm.
 const MOST: f64 = 1000.0;
 
@@ -19,11 +17,8 @@ const MOST_ROUNDS: usize = 40;
 /// Smoothed mean curvature at each vertex, 1/m in units of the mesh, within ±1000; positive where the surface bulges,
 /// negative where it is hollow. A sphere of radius r has 1/r, a cylinder 1/(2 r), a vertex without triangles 0.
 ///
-/// Vertices at the same position count as one. Only the triangles' winding says which side is outside, the normals of
-/// the primitive take no part.
-pub(crate) fn curvatures(primitive: &Primitive) -> Vec<f32> {
-    let triangles = primitive.indices.as_chunks::<3>().0;
-    let surface = Surface::new(&primitive.positions, triangles);
+/// Only the triangles' winding says which side is outside.
+pub(super) fn curvatures(surface: &Surface) -> Vec<f32> {
     let mut values = surface.curvatures();
     surface.spread(&mut values, SPREAD_M);
     surface.to_vertices(&values)
@@ -51,7 +46,8 @@ struct Edge {
 }
 
 impl Surface {
-    /// Triangles with a corner out of range, without area or not finite are left out.
+    /// Vertices at the same position count as one. Triangles with a corner out of range, without area or not finite are left
+    /// out.
     pub(super) fn new(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Self {
         let (places, points) = weld(positions);
         let mut normals = vec![DVec3::ZERO; points.len()];
@@ -98,6 +94,11 @@ impl Surface {
     /// Place of each vertex.
     pub(super) fn places(&self) -> &[u32] {
         &self.places
+    }
+
+    /// Normal of each place out of the body, unit; zero where it has none.
+    pub(super) fn normals(&self) -> &[DVec3] {
+        &self.normals
     }
 
     /// Number of places.
@@ -277,6 +278,17 @@ pub(super) mod shapes {
         out
     }
 
+    /// Positions and smooth normals, also over hard edges.
+    pub(in crate::skin) fn vertices(mesh: &Primitive) -> (Vec<Vec3>, Vec<Vec3>) {
+        let positions: Vec<Vec3> = mesh.positions.iter().copied().map(Vec3::from_array).collect();
+        let mut normals = vec![Vec3::ZERO; positions.len()];
+        for corners in mesh.indices.as_chunks::<3>().0 {
+            let [a, b, c] = corners.map(|corner| positions[corner as usize]);
+            corners.iter().for_each(|corner| normals[*corner as usize] += (b - a).cross(c - a));
+        }
+        (positions, normals)
+    }
+
     /// All triangles, each primitive with vertices of its own.
     pub(in crate::skin) fn together(parts: &[Primitive]) -> Primitive {
         let mut out = Primitive::default();
@@ -328,6 +340,11 @@ mod tests {
 
     use super::shapes::{ball, globe, grid};
     use super::*;
+    use crate::scene::Primitive;
+
+    fn curvatures(mesh: &Primitive) -> Vec<f32> {
+        super::curvatures(&Surface::new(&mesh.positions, mesh.indices.as_chunks().0))
+    }
 
     /// The greatest relative error.
     fn worst(values: &[f32], wanted: f32) -> f32 {

@@ -247,7 +247,7 @@ fn erf(x: f64) -> f64 {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use serde_json::Value;
 
     use super::*;
@@ -265,7 +265,7 @@ mod tests {
     }
 
     /// The six Gaussians of d'Eon and Luebke 2007, as the vectors list them.
-    fn six() -> GaussianSum {
+    pub(in crate::skin) fn six() -> GaussianSum {
         let file = read(include_str!("../../tests/oracles/gaussian_profile.json"));
         let variances = file["variance_mm2"].as_array().expect("variances");
         GaussianSum::new(std::array::from_fn(|c| {

@@ -3,55 +3,78 @@
 use glam::{Mat4, Vec3};
 
 use super::curvature::curvatures;
-use super::thickness::{Body, thicknesses};
+use super::occlusion::occlusions;
+use super::shape::{Body, Shape};
+use super::thickness::thicknesses;
+use super::tree::Tree;
 use crate::scene::Primitive;
 
 /// Thickness from which on nothing comes through, metres of the world.
 const THICKEST_M: f32 = 0.05;
 
-/// Curvature, 1/m, and thickness, m, at each vertex of parts with `character_from_mesh` at rest. Parts that touch are one surface,
-/// and a part may lie behind another. Metres of the scene; `world_scale` is what one stands for.
-pub(crate) fn measured(parts: &[(&Primitive, Mat4)], world_scale: f32) -> Vec<Vec<[f32; 2]>> {
+/// Distance from which on surfaces hide no light from each other, metres of the world: a chin is less above the neck.
+const HIDING_M: f32 = 0.1;
+
+/// Curvature, 1/m, thickness, m, and occlusion, 0 to 1, at each vertex of parts with `character_from_mesh` at rest. Parts that touch
+/// are one surface, and a part may lie behind another; `others` only hide light from them. Metres of the scene; `world_scale` is what
+/// one stands for.
+pub(crate) fn measured(
+    parts: &[(&Primitive, Mat4)],
+    others: &[(&Primitive, Mat4)],
+    world_scale: f32,
+) -> Vec<Vec<[f32; 3]>> {
     if parts.is_empty() {
         return Vec::new();
     }
-    let thickest = THICKEST_M / world_scale.max(1e-6);
-    let placed: Vec<(Vec<Vec3>, Vec<Vec3>)> = parts.iter().map(|(primitive, rest)| placed(primitive, *rest)).collect();
-    let bodies = placed.iter().zip(parts);
-    let bodies: Vec<Body<'_>> = bodies
-        .map(|((positions, normals), (primitive, _))| Body { positions, normals, indices: &primitive.indices })
-        .collect();
-    let mut bent = curvatures(&joined(parts, &placed)).into_iter();
-    let thick = thicknesses(&bodies, thickest);
-    thick.into_iter().map(|of| of.into_iter().zip(bent.by_ref()).map(|(t, k)| [k, t]).collect()).collect()
+    let metre = 1.0 / world_scale.max(1e-6);
+    let placed: Vec<Placed> = parts.iter().map(Placed::new).collect();
+    let bodies: Vec<_> = placed.iter().map(Placed::body).collect();
+    let (shape, hiding) = rayon::join(|| Shape::new(&bodies), || hiding(others));
+    let curvatures = curvatures(&shape.surface);
+    let thicknesses = thicknesses(&shape, THICKEST_M * metre);
+    let occlusions = occlusions(&shape, &hiding, HIDING_M * metre);
+    let mut all = curvatures.into_iter().zip(thicknesses).zip(occlusions).map(|((k, t), o)| [k, t, o]);
+    placed.iter().map(|part| all.by_ref().take(part.positions.len()).collect()).collect()
 }
 
-/// Positions and normals of a part, character space.
-fn placed(primitive: &Primitive, rest: Mat4) -> (Vec<Vec3>, Vec<Vec3>) {
-    let normals = rest.inverse().transpose();
-    let turned = |n: &[f32; 3]| normals.transform_vector3(Vec3::from(*n)).normalize_or_zero();
-    let positions = primitive.positions.iter().map(|p| rest.transform_point3(Vec3::from(*p)));
-    (positions.collect(), primitive.normals.iter().map(turned).collect())
+/// A part in character space.
+struct Placed {
+    positions: Vec<Vec3>,
+    normals: Vec<Vec3>,
+    indices: Vec<u32>,
 }
 
-/// All parts as one mesh.
-fn joined(parts: &[(&Primitive, Mat4)], placed: &[(Vec<Vec3>, Vec<Vec3>)]) -> Primitive {
-    let mut all = Primitive::default();
-    for ((primitive, rest), (positions, _)) in parts.iter().zip(placed) {
-        let first = all.positions.len() as u32;
-        all.positions.extend(positions.iter().map(Vec3::to_array));
+impl Placed {
+    fn new((primitive, rest): &(&Primitive, Mat4)) -> Self {
+        let normals = rest.inverse().transpose();
+        let turned = |n: &[f32; 3]| normals.transform_vector3(Vec3::from(*n)).normalize_or_zero();
+        let mut indices = primitive.indices.clone();
         // A mirrored node turns its triangles inside out.
-        let is_mirrored = rest.determinant() < 0.0;
-        let turned = |t: &[u32]| {
-            if is_mirrored {
-                [t[0], t[2], t[1]]
-            } else {
-                [t[0], t[1], t[2]]
-            }
-        };
-        all.indices.extend(primitive.indices.chunks_exact(3).flat_map(turned).map(|i| first + i));
+        if rest.determinant() < 0.0 {
+            indices.as_chunks_mut::<3>().0.iter_mut().for_each(|corners| corners.swap(1, 2));
+        }
+        Self {
+            positions: primitive.positions.iter().map(|p| rest.transform_point3(Vec3::from(*p))).collect(),
+            normals: primitive.normals.iter().map(turned).collect(),
+            indices,
+        }
     }
-    all
+
+    fn body(&self) -> Body<'_> {
+        Body { positions: &self.positions, normals: &self.normals, indices: &self.indices }
+    }
+}
+
+/// All triangles of parts.
+fn hiding(parts: &[(&Primitive, Mat4)]) -> Tree {
+    let mut positions = Vec::new();
+    let mut triangles = Vec::new();
+    for (primitive, rest) in parts {
+        let first = positions.len() as u32;
+        positions.extend(primitive.positions.iter().map(|p| rest.transform_point3(Vec3::from(*p)).to_array()));
+        triangles.extend(primitive.indices.as_chunks::<3>().0.iter().map(|corners| corners.map(|c| first + c)));
+    }
+    Tree::new(&positions, &triangles)
 }
 
 #[cfg(test)]
@@ -83,16 +106,17 @@ mod tests {
         // A cylinder of 20 mm, one half in centimetres and mirrored.
         let (front, back) = (strip(0.02, 0, 180), strip(2.0, 0, 180));
         let mirrored = Mat4::from_scale(Vec3::new(-0.01, 0.01, 0.01));
-        let found = measured(&[(&front, Mat4::IDENTITY), (&back, mirrored)], 1.0);
+        let found = measured(&[(&front, Mat4::IDENTITY), (&back, mirrored)], &[], 1.0);
         for (part, of) in [front, back].iter().zip(&found) {
             assert_eq!(part.positions.len(), of.len());
             let columns = 37;
             // Away from the open ends, the seam between the halves included.
-            for [k, t] in &of[15 * columns..25 * columns] {
+            for [k, t, hidden] in &of[15 * columns..25 * columns] {
                 assert!((k - 25.0).abs() < 1.5, "{k}");
                 assert!((0.024..=0.04).contains(t), "{t}");
+                assert_eq!(*hidden, 0.0);
             }
         }
-        assert!(measured(&[], 1.0).is_empty());
+        assert!(measured(&[], &[], 1.0).is_empty());
     }
 }

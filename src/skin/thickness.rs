@@ -5,7 +5,8 @@ use std::f32::consts::PI;
 use glam::Vec3;
 use rayon::prelude::*;
 
-use super::curvature::Surface;
+use super::shape::Shape;
+use super::tree::Tree;
 
 /// Rays that are cast below each place.
 const RAYS: usize = 24;
@@ -16,19 +17,6 @@ const RIM: f32 = 0.866_025_4;
 /// How far thickness is spread over the surface, m: the standard deviation along each axis.
 const SPREAD_M: f64 = 1e-3;
 
-/// Most triangles in a leaf of the tree.
-const LEAF: usize = 4;
-
-/// A mesh of a character at rest, in a space that all its meshes share.
-pub(crate) struct Body<'a> {
-    /// Positions of the vertices, m.
-    pub(crate) positions: &'a [Vec3],
-    /// Normals of the vertices, out of the body, of any length; as many as positions.
-    pub(crate) normals: &'a [Vec3],
-    /// Triangle list.
-    pub(crate) indices: &'a [u32],
-}
-
 /// Thickness of all bodies together below each vertex of each, m, from 0 to `most_m`.
 ///
 /// A fan of rays goes down within 30° of the normal to the first surface of any body. Each depth is measured along the
@@ -36,43 +24,16 @@ pub(crate) struct Body<'a> {
 /// single rays that run along a body or into a fold do not count, and where ways differ the thin ones do, as light
 /// prefers them. A sphere of diameter d has about 0.87 d. Rays that leave through a hole, and vertices without a
 /// normal, have `most_m`; where that is not positive and finite all have 0.
-pub(crate) fn thicknesses(bodies: &[Body<'_>], most_m: f32) -> Vec<Vec<f32>> {
+pub(super) fn thicknesses(shape: &Shape, most_m: f32) -> Vec<f32> {
     let sound = most_m > 0.0 && most_m.is_finite();
     if !sound {
-        return bodies.iter().map(|body| vec![0.0; body.positions.len()]).collect();
+        return vec![0.0; shape.surface.places().len()];
     }
-    let mut positions = Vec::new();
-    let mut triangles = Vec::new();
-    for body in bodies {
-        let first = positions.len() as u32;
-        let within = |corners: &&[u32; 3]| corners.iter().all(|c| (*c as usize) < body.positions.len());
-        let corners = body.indices.as_chunks::<3>().0.iter().filter(within);
-        triangles.extend(corners.map(|corners| corners.map(|c| first + c)));
-        positions.extend(body.positions.iter().map(Vec3::to_array));
-    }
-    let surface = Surface::new(&positions, &triangles);
-    // Vertices at the same position share one fan: seams stay closed.
-    let mut feet = vec![(Vec3::ZERO, Vec3::ZERO); surface.len()];
-    let normals =
-        bodies.iter().flat_map(|b| (0..b.positions.len()).map(|v| b.normals.get(v).copied().unwrap_or_default()));
-    for ((place, position), normal) in surface.places().iter().zip(&positions).zip(normals) {
-        let (at, sum) = &mut feet[*place as usize];
-        *at = Vec3::from_array(*position);
-        *sum += normal.normalize_or_zero();
-    }
-    let tree = Tree::new(&positions, &triangles);
     let fan = fan();
-    let mut depths: Vec<f64> =
-        feet.par_iter().map(|(at, normal)| f64::from(depth(&tree, &fan, *at, *normal, most_m))).collect();
-    surface.spread(&mut depths, SPREAD_M);
-    let depths = surface.to_vertices(&depths);
-    let mut rest = depths.as_slice();
-    let mut take = |body: &Body<'_>| {
-        let (own, others) = rest.split_at(body.positions.len());
-        rest = others;
-        own.to_vec()
-    };
-    bodies.iter().map(&mut take).collect()
+    let depth = |(at, normal): &(Vec3, Vec3)| f64::from(depth(&shape.tree, &fan, *at, *normal, most_m));
+    let mut depths: Vec<f64> = shape.feet.par_iter().map(depth).collect();
+    shape.surface.spread(&mut depths, SPREAD_M);
+    shape.surface.to_vertices(&depths)
 }
 
 /// Directions of the rays round +Z: a sunflower's spiral, even in solid angle.
@@ -105,180 +66,25 @@ fn depth(tree: &Tree, fan: &[Vec3; RAYS], at: Vec3, normal: Vec3, most: f32) -> 
     (middle.len() as f64 / middle.iter().map(|depth| f64::from(*depth).recip()).sum::<f64>()) as f32
 }
 
-/// Triangles in a tree of boxes, each node cut at the median of its centres.
-struct Tree {
-    /// A node's first child stands right behind it.
-    nodes: Vec<TreeNode>,
-    triangles: Vec<Triangle>,
-}
-
-struct TreeNode {
-    low: Vec3,
-    high: Vec3,
-    /// Of a leaf the first triangle, else the second child.
-    first: u32,
-    /// Triangles of a leaf, else 0.
-    count: u32,
-}
-
-/// A corner and the edges from it to the others.
-#[derive(Clone, Copy)]
-struct Triangle {
-    corner: Vec3,
-    edges: [Vec3; 2],
-}
-
-impl Triangle {
-    fn bounds(&self) -> (Vec3, Vec3) {
-        let [b, c] = self.edges.map(|edge| self.corner + edge);
-        (self.corner.min(b).min(c), self.corner.max(b).max(c))
-    }
-
-    /// Twice the centre of the box.
-    fn centre(&self) -> Vec3 {
-        let (low, high) = self.bounds();
-        low + high
-    }
-
-    /// Where along a ray, in lengths of `direction`, the triangle lies (Möller and Trumbore 1997).
-    fn meets(&self, at: Vec3, direction: Vec3) -> Option<f32> {
-        // Neighbours overlap by this, so that no ray slips between them.
-        const SLACK: f32 = 1e-5;
-        let [b, c] = self.edges;
-        let across = direction.cross(c);
-        let volume = b.dot(across);
-        let offset = at - self.corner;
-        let turned = offset.cross(b);
-        let (u, v) = (offset.dot(across) / volume, direction.dot(turned) / volume);
-        // A ray in the plane of the triangle gives infinity or NaN, which fail.
-        (u >= -SLACK && v >= -SLACK && u + v <= 1.0 + SLACK).then(|| c.dot(turned) / volume)
-    }
-}
-
-impl Tree {
-    /// Triangles without area or not finite are left out.
-    fn new(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Self {
-        let triangle = |corners: &[u32; 3]| {
-            let [a, b, c] = corners.map(|c| positions.get(c as usize).copied().map(Vec3::from_array));
-            let (a, b, c) = (a?, b?, c?);
-            let area = (b - a).as_dvec3().cross((c - a).as_dvec3()).length_squared();
-            (area > 0.0 && area.is_finite()).then_some(Triangle { corner: a, edges: [b - a, c - a] })
-        };
-        let mut triangles: Vec<Triangle> = triangles.iter().filter_map(triangle).collect();
-        let mut nodes = Vec::with_capacity(triangles.len());
-        if !triangles.is_empty() {
-            grow(&mut nodes, &mut triangles, 0);
-        }
-        Self { nodes, triangles }
-    }
-
-    /// Length of the ray to the first triangle that is nearer than `most`.
-    fn first_hit(&self, at: Vec3, direction: Vec3, most: f32) -> Option<f32> {
-        // No component is 0, so that none of the box test's numbers is NaN.
-        let inverse = direction.to_array().map(|v| 1.0 / if v.abs() < 1e-12 { 1e-12 } else { v });
-        let inverse = Vec3::from_array(inverse);
-        let mut nearest = most;
-        let mut found = None;
-        // Halving 2^32 triangles takes fewer levels than this.
-        let mut stack = [(0, 0.0); 40];
-        let mut height = 0;
-        let mut next = self.nodes.first().and_then(|root| root.enters(at, inverse, nearest)).map(|_| 0);
-        loop {
-            let Some(index) = next.take() else {
-                if height == 0 {
-                    return found;
-                }
-                height -= 1;
-                let (index, enters) = stack[height];
-                next = (enters < nearest).then_some(index);
-                continue;
-            };
-            let node = &self.nodes[index];
-            let first = node.first as usize;
-            if node.count > 0 {
-                for triangle in &self.triangles[first..first + node.count as usize] {
-                    if let Some(length) = triangle.meets(at, direction).filter(|l| *l > 0.0 && *l < nearest) {
-                        nearest = length;
-                        found = Some(length);
-                    }
-                }
-                continue;
-            }
-            let enters = |child: usize| self.nodes[child].enters(at, inverse, nearest).map(|length| (child, length));
-            next = match (enters(index + 1), enters(first)) {
-                (Some(a), Some(b)) => {
-                    let (near, far) = if b.1 < a.1 { (b, a) } else { (a, b) };
-                    stack[height] = far;
-                    height += 1;
-                    Some(near.0)
-                }
-                (a, b) => a.or(b).map(|child| child.0),
-            };
-        }
-    }
-}
-
-impl TreeNode {
-    /// Where a ray enters the box, if nearer than `most`.
-    fn enters(&self, at: Vec3, inverse: Vec3, most: f32) -> Option<f32> {
-        let (a, b) = ((self.low - at) * inverse, (self.high - at) * inverse);
-        let enters = a.min(b).max_element().max(0.0);
-        let leaves = a.max(b).min_element().min(most);
-        (enters <= leaves).then_some(enters)
-    }
-}
-
-/// Adds the node of some triangles, and its children, and orders the triangles. `first` is where they begin in the
-/// whole list.
-fn grow(nodes: &mut Vec<TreeNode>, triangles: &mut [Triangle], first: usize) {
-    let far = (Vec3::INFINITY, Vec3::NEG_INFINITY);
-    let join = |(low, high): (Vec3, Vec3), (l, h): (Vec3, Vec3)| (low.min(l), high.max(h));
-    let (low, high) = triangles.iter().map(Triangle::bounds).fold(far, join);
-    let own = nodes.len();
-    let count = if triangles.len() <= LEAF { triangles.len() } else { 0 };
-    // Wider by what rounding may take away.
-    let margin = 2.0 * f32::EPSILON * low.abs().max(high.abs());
-    let [low, high] = [low - margin, high + margin];
-    nodes.push(TreeNode { low, high, first: first as u32, count: count as u32 });
-    if count > 0 {
-        return;
-    }
-    let centres = triangles.iter().map(Triangle::centre).map(|c| (c, c));
-    let (least, most) = centres.fold(far, join);
-    let axis = (most - least).max_position();
-    let half = triangles.len() / 2;
-    triangles.select_nth_unstable_by(half, |a, b| a.centre()[axis].total_cmp(&b.centre()[axis]));
-    let (left, right) = triangles.split_at_mut(half);
-    grow(nodes, left, first);
-    nodes[own].first = nodes.len() as u32;
-    grow(nodes, right, first + half);
-}
-
 #[cfg(test)]
 mod tests {
     use glam::Quat;
 
-    use super::super::curvature::shapes::{ball, globe, grid, together};
+    use super::super::curvature::shapes::{ball, globe, grid, together, vertices};
+    use super::super::shape::Body;
     use super::*;
     use crate::scene::Primitive;
 
     const MOST: f32 = 0.05;
 
-    /// Positions and smooth normals, also over hard edges.
-    fn vertices(mesh: &Primitive) -> (Vec<Vec3>, Vec<Vec3>) {
-        let positions: Vec<Vec3> = mesh.positions.iter().copied().map(Vec3::from_array).collect();
-        let mut normals = vec![Vec3::ZERO; positions.len()];
-        for corners in mesh.indices.as_chunks::<3>().0 {
-            let [a, b, c] = corners.map(|corner| positions[corner as usize]);
-            corners.iter().for_each(|corner| normals[*corner as usize] += (b - a).cross(c - a));
-        }
-        (positions, normals)
+    fn thicknesses(bodies: &[Body<'_>], most: f32) -> Vec<f32> {
+        super::thicknesses(&Shape::new(bodies), most)
     }
 
     fn measure(mesh: &Primitive) -> Vec<f32> {
         let (positions, normals) = vertices(mesh);
         let body = Body { positions: &positions, normals: &normals, indices: &mesh.indices };
-        thicknesses(&[body], MOST).remove(0)
+        thicknesses(&[body], MOST)
     }
 
     /// A square of 40 mm, seen from above; at its left edge as thick as `left`, at its right edge as thick as `right`.
@@ -406,14 +212,14 @@ mod tests {
             Body { positions: &positions[..upper], normals: &normals[..upper], indices: &mesh.indices[..faces] },
             Body { positions: &positions[upper..], normals: &normals[upper..], indices: &lower },
         ];
-        assert_eq!(thicknesses(&parts, MOST).concat(), whole);
+        assert_eq!(thicknesses(&parts, MOST), whole);
     }
 
     #[test]
     fn what_is_no_body_is_no_trouble() {
         assert!(thicknesses(&[], MOST).is_empty());
         let empty = Body { positions: &[], normals: &[], indices: &[0, 1, 2] };
-        assert_eq!(thicknesses(&[empty], MOST), [[0.0; 0]]);
+        assert!(thicknesses(&[empty], MOST).is_empty());
         let mesh = ball(0.01, 2);
         let (mut positions, normals) = vertices(&mesh);
         positions[0] = Vec3::NAN;
@@ -421,13 +227,13 @@ mod tests {
         let indices = [mesh.indices.as_slice(), &[0, 0, 0, 3, 3, 4, 9999, 1, 2, 3, 4]].concat();
         for count in [0, 7, normals.len()] {
             let body = Body { positions: &positions, normals: &normals[..count], indices: &indices };
-            let values = thicknesses(&[body], MOST).remove(0);
+            let values = thicknesses(&[body], MOST);
             assert_eq!(values.len(), positions.len());
             assert!(values.iter().all(|t| (0.0..=MOST).contains(t)));
         }
         for most in [0.0, -1.0, f32::NAN, f32::INFINITY] {
             let body = Body { positions: &positions, normals: &normals, indices: &indices };
-            assert!(thicknesses(&[body], most).concat().into_iter().all(|t| t == 0.0));
+            assert!(thicknesses(&[body], most).into_iter().all(|t| t == 0.0));
         }
     }
 
@@ -440,26 +246,5 @@ mod tests {
         };
         let first = bits(1);
         assert!(first == bits(1) && first == bits(3));
-    }
-
-    #[test]
-    fn the_tree_finds_what_a_look_at_all_triangles_finds() {
-        let mesh = together(&[slab(0.001, 0.02), ball(0.015, 3), globe(0.03, 24)]);
-        let tree = Tree::new(&mesh.positions, mesh.indices.as_chunks::<3>().0);
-        let mut hits = 0;
-        for ray in 0..3000_u32 {
-            // Numbers of no order in [-1, 1).
-            let number = |k: u32| ((ray * 6 + k).wrapping_mul(2_654_435_761) >> 8) as f32 / 8_388_608.0 - 1.0;
-            let at = 0.03 * Vec3::from_array([0, 1, 2].map(number));
-            // Some lie in the planes of boxes.
-            let way = Vec3::from_array([3, 4, 5].map(|k| if ray % 5 == 0 && k != 4 { 0.0 } else { number(k) }));
-            let Some(way) = way.try_normalize() else { continue };
-            let all = tree.triangles.iter().filter_map(|t| t.meets(at, way)).filter(|l| *l > 0.0 && *l < MOST);
-            let nearest = all.fold(f32::INFINITY, f32::min);
-            let found = tree.first_hit(at, way, MOST).unwrap_or(f32::INFINITY);
-            assert_eq!(found, nearest, "from {at} along {way}");
-            hits += u32::from(found.is_finite());
-        }
-        assert!(hits > 1500, "{hits}");
     }
 }

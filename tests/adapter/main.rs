@@ -23,6 +23,7 @@ mod oracles;
 mod own_look;
 mod self_shadow;
 mod skin;
+mod skin_drawn;
 mod skin_texture_space;
 mod stage;
 mod strips;

@@ -2,7 +2,7 @@
 import package::bind::actor::actors;
 import package::bind::vertex::Vertex;
 import package::lib::bangs::{BANGS_BLOCK, BANGS_TAPS, bangs_weight, esm_taps};
-import package::lib::shadow::{shadow_filtered, shadow_moved, shadow_place, shadow_share};
+import package::lib::shadow::{shadow_edge, shadow_filtered, shadow_moved, shadow_place};
 
 @group(1) @binding(2) var bangs_map: texture_2d_array<f32>;
 // Nearest depth round each block of it.
@@ -46,12 +46,21 @@ fn shadow_receiver(v: Vertex, position: vec3f, normal: vec3f) -> vec4f {
 // Share of the key light that arrives there. What lies beyond the map is lit, and so is what the caller does not need
 // (`wanted`).
 fn shadow_lit(actor: u32, at: vec4f, wanted: bool) -> f32 {
+    return shadow_drawn(actor, shadow_soft(actor, at, wanted));
+}
+
+// The same by what its map has.
+fn shadow_drawn(actor: u32, soft: f32) -> f32 {
+    @if(skin_penumbra) return min(soft, actors[actor].key_light);
+    @if(!skin_penumbra) return min(shadow_edge(soft), actors[actor].key_light);
+}
+
+// Share of light that the shadow map lets through there, with an edge as wide as it is filtered.
+fn shadow_soft(actor: u32, at: vec4f, wanted: bool) -> f32 {
     let layer = i32(round(at.w));
     let spread = actors[actor].shadow_spread;
     let is_outside = any(at.xy <= vec2f(0.0)) || any(at.xy >= vec2f(1.0)) || layer < 0;
-    @if(skin_penumbra) let lit = shadow_filtered(shadow_map, shadow_sampler, at.xyz, layer, spread, wanted && !is_outside);
-    @if(!skin_penumbra) let lit = shadow_share(shadow_map, shadow_sampler, at.xyz, layer, spread, wanted && !is_outside);
-    return min(lit, actors[actor].key_light);
+    return shadow_filtered(shadow_map, shadow_sampler, at.xyz, layer, spread, wanted && !is_outside);
 }
 
 // How far behind the nearest surface a place of its shadow map lies, metres, between four texels.

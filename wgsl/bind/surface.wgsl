@@ -52,6 +52,8 @@ struct Border {
     // Share of the key light that arrives, and of the shadow of bangs.
     own_lit: f32,
     received: f32,
+    // Place across the warm edge of skin: 0 at the drawn border, -1 where it ends in shade, positive in light.
+    @if(skin_edge) edge: f32,
     // What the lit colour and what the whole is multiplied by.
     tint: vec3f,
     bangs: vec3f,

@@ -35,8 +35,8 @@ struct Varying {
     @if(part || channel_strips || channel_strip_order) @location(12) @interpolate(flat) part: u32,
     // Depth in a map that is drawn from a light.
     @if(depth) @location(13) depth: f32,
-    // Of skin in pictures: curvature, 1/m, and thickness, m.
-    @if(skin_vertex && !depth) @location(13) skin: vec2f,
+    // Of skin in pictures: curvature, 1/m, thickness, m, and occlusion.
+    @if(skin_vertex && !depth) @location(13) skin: vec3f,
     @if(actor) @location(14) @interpolate(flat) actor: u32,
     // Where it was in the last picture: x, y and w of the clip position.
     @if(before) @location(15) before: vec3f,

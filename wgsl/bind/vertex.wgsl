@@ -15,8 +15,8 @@ struct VertexInput {
     @location(4) world_row_y: vec4f,
     @location(5) world_row_z: vec4f,
     @location(6) actor: vec3u,
-    // Curvature of skin, 1/m, and its thickness, m; character space.
-    @if(skin_vertex) @location(7) skin: vec2f,
+    // Curvature of skin, 1/m, its thickness, m, and the share of light from all around that does not arrive; character space.
+    @if(skin_vertex) @location(7) skin: vec3f,
 }
 
 struct Vertex {
@@ -34,8 +34,8 @@ struct Vertex {
     actor: u32,
     // The number by the pass.
     extra: u32,
-    // Curvature, 1/m, and thickness, m, in the world.
-    @if(skin_vertex) skin: vec2f,
+    // Curvature, 1/m, and thickness, m, in the world, and occlusion.
+    @if(skin_vertex) skin: vec3f,
 }
 
 fn vertex_of(in: VertexInput) -> Vertex {
@@ -53,7 +53,7 @@ fn vertex_of(in: VertexInput) -> Vertex {
     v.extra = in.actor.z;
     @if(skin_vertex) {
         let scale = length(in.world_row_x.xyz);
-        v.skin = in.skin * vec2f(1.0 / max(scale, 1e-6), scale);
+        v.skin = in.skin * vec3f(1.0 / max(scale, 1e-6), scale, 1.0);
     }
     return v;
 }

@@ -14,6 +14,12 @@ fn bangs_share(lit: f32, edges: vec2f, strength: f32) -> f32 {
     return strength * (1.0 - smoothstep(edges.x, max(edges.y, edges.x + 1e-6), lit));
 }
 
+// Place between the middle of the shadow's edge (0) and where no light arrives (-1) or all of it (1).
+fn bangs_depth(lit: f32, edges: vec2f) -> f32 {
+    let middle = clamp(0.5 * (edges.x + edges.y), 0.01, 0.99);
+    return (lit - middle) / select(middle, 1.0 - middle, lit > middle);
+}
+
 // Taps along one axis: a box three texels wide lies on four of them.
 const BANGS_TAPS: i32 = 4;
 

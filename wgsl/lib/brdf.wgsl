@@ -29,3 +29,11 @@ fn f0_of_ior(ior: f32) -> f32 {
     let r = (ior - 1.0) / (ior + 1.0);
     return r * r;
 }
+
+// Square of alpha over a pixel: what the normal turns within it is roughness, too (Tokuyoshi and Kaplanyan 2019). `along_x` and
+// `along_y` are the normal's change to the pixels beside; a pixel is a Gaussian of half of its side.
+fn filtered_alpha2(alpha2: f32, along_x: vec3f, along_y: vec3f) -> f32 {
+    let variance = 0.15915494 * (dot(along_x, along_x) + dot(along_y, along_y));
+    // 0.18: wider kernels than that are no estimate.
+    return min(alpha2 + min(2.0 * variance, 0.18), 1.0);
+}

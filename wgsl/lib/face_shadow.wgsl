@@ -23,6 +23,14 @@ fn face_lit(tau: f32, measure: f32, softness: f32) -> f32 {
     return max(lit * smoothstep(0.0, 2.0 / 255.0, tau), smoothstep(1.0 - 2.0 / 255.0, 1.0, tau));
 }
 
+// How far the light would have to turn for its border to lie where a texel turns dark at `tau`, radians; `angle` and `cosine` as
+// above. Far where a texel is always dark or always lit.
+fn face_turn(tau: f32, angle: f32, cosine: f32) -> f32 {
+    let at = select(tau, acos(clamp(1.0 - 2.0 * tau, -1.0, 1.0)) * 0.31830988618, cosine > 0.5);
+    let turn = select(at - angle, -1.0, tau < 1.0 / 255.0);
+    return 3.14159265359 * select(turn, 1.0, tau > 1.0 - 1.0 / 255.0);
+}
+
 // Threshold on the light's side: `thresholds` are for light from the character's right (x) and left (y).
 fn face_side(thresholds: vec2f, light_x: f32) -> f32 {
     return select(thresholds.x, thresholds.y, light_x >= 0.0);

@@ -4,7 +4,7 @@ import package::bind::shown::shown;
 import package::bind::surface::{Border, Surface};
 import package::bind::varying::Varying;
 import package::bind::vertex::Vertex;
-import package::lib::bangs::bangs_share;
+import package::lib::bangs::{bangs_depth, bangs_share};
 import package::material::material;
 
 struct BangsShadow {
@@ -26,10 +26,13 @@ fn bangs_shadow_shade(s: Surface, border: Border) -> Border {
     var light = b.shading;
     @if(shade_ramp) light = ceil(b.soft);
     let share = light * b.of_face;
-    var lit = bangs_lit(s.at.actor, s.at.bangs, BANGS_LAYER, share > 0.0);
-    @if(bangs_lids) lit = min(lit, bangs_lit(s.at.actor, s.at.bangs, LIDS_LAYER, share > 0.0));
+    var wanted = share;
+    @if(skin_edge) wanted = max(wanted, (1.0 + b.edge) * b.of_face);
+    var lit = bangs_lit(s.at.actor, s.at.bangs, BANGS_LAYER, wanted > 0.0);
+    @if(bangs_lids) lit = min(lit, bangs_lit(s.at.actor, s.at.bangs, LIDS_LAYER, wanted > 0.0));
     b.received = share * bangs_share(lit, m.edges, m.strength);
     b.bangs = mix(vec3f(1.0), m.color, b.received);
+    @if(skin_edge) b.edge = min(b.edge, mix(1.0, bangs_depth(lit, m.edges), m.strength * b.of_face));
     @if(channel_bangs_shadow) shown = vec3f(lit);
     return b;
 }

@@ -6,7 +6,9 @@ import package::bind::varying::{Varying, in_face_frame};
 import package::bind::vertex::Vertex;
 import package::lib::face_shadow::{
     face_back_share, face_light_angle, face_lit, face_masked, face_measure, face_shading, face_side, face_stack_place,
+    face_turn,
 };
+import package::look::skin::{EDGE_MOST, skin_edge_reach};
 import package::material::{face_shadow_map, face_shadow_map_sampler, material};
 import package::model::toon::soft_width;
 
@@ -67,7 +69,37 @@ fn face_shadow_shade(s: Surface, border: Border) -> Border {
     b.of_body = saturate(4.0 - 4.0 * b.of_face);
     b.shading = face_shading(b.shading, lit, region, strength);
     @if(soft) b.soft = face_shading(b.soft, soft, region, strength);
+    @if(skin_edge) b.edge = face_shading(b.edge, face_edge(uv, s.at.face_light, place), region, strength);
     return b;
+}
+
+// How far the light would have to turn for the border of the maps to lie there, radians.
+@if(skin_edge)
+fn face_turn_at(uv: vec2f, light: vec4f, place: vec2f) -> f32 {
+    let m = &material.face_shadow;
+    var turn = face_turn(face_side(face_map_at(uv, 0, place).rg, light.x), light.z, m.cosine);
+    @if(face_back) {
+        let back = face_map_at(uv, i32(m.pitch_count), place);
+        turn = mix(turn, face_turn(face_side(back.rg, light.x), light.z, m.cosine), face_back_share(light.z));
+    }
+    return turn;
+}
+
+// Place across the warm edge of skin: how far the border is, by how fast the light comes nearer over the surface. Where it does
+// not there is none: a spot that is about to be lit has no edge yet.
+@if(skin_edge)
+fn face_edge(uv: vec2f, light: vec4f, place: vec2f) -> f32 {
+    let half = vec2f(0.5 * skin_edge_reach()) / max(material.skin.metres_per_uv, vec2f(1e-6));
+    let here = face_turn_at(uv, light, place);
+    let to_border = -sign(here);
+    let u = vec2f(half.x, 0.0);
+    let v = vec2f(0.0, half.y);
+    let left = (face_turn_at(uv - u, light, place) - here) * to_border;
+    let right = (face_turn_at(uv + u, light, place) - here) * to_border;
+    let up = (face_turn_at(uv - v, light, place) - here) * to_border;
+    let down = (face_turn_at(uv + v, light, place) - here) * to_border;
+    let nearer = 2.0 * length(max(vec2f(max(left, right), max(up, down)), vec2f(0.0)));
+    return clamp(here / clamp(nearer, 1e-4, EDGE_MOST), -2.0, 2.0);
 }
 
 // The map of the stack for the light's height; its thresholds lie between those of the two nearest ones.

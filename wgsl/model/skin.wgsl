@@ -7,10 +7,10 @@ import package::bind::maps::shadow_depth;
 import package::bind::shown::shown;
 import package::bind::surface::{Shaded, Surface};
 import package::bind::uv::texture_uv;
-import package::lib::bands::banded;
-import package::lib::brdf::{f0_of_ior, ggx_distribution, schlick, smith_visibility};
+import package::lib::brdf::{f0_of_ior, filtered_alpha2, ggx_distribution, schlick, smith_visibility};
+import package::lib::occlusion::{occluded_diffuse, occluded_specular};
 import package::lib::skin::{
-    albedo_place, detail_normals, diffused_place, penumbra_place, transmittance_place, wrapped_diffuse,
+    albedo_place, detail_smoothing, diffused_place, penumbra_place, transmittance_place, wrapped_diffuse,
     wrapped_diffuse_as_written,
 };
 import package::lib::skin_specular::{blinn_phong_lobe, dual_ggx_lobe, kelemen_lobe};
@@ -36,6 +36,10 @@ struct Skinned {
     // Share of light that the surface mirrors to the viewer's side; and reflectance at normal incidence.
     mirrored: f32,
     f0: vec3f,
+    // Of the lobe, or of the sharp and of the wide one; over the pixel.
+    alpha: vec2f,
+    // Share of light from all around that nothing hides.
+    open: f32,
 }
 
 // Light of one direction: what scatters, and what is mirrored; over the light.
@@ -72,6 +76,14 @@ fn skin_of(s: Surface) -> Skinned {
     skin.n_dot_v = max(dot(s.normal, s.view), 1e-3);
     skin.mirrored = skin_albedo(skin.n_dot_v);
     skin.f0 = vec3f(f0_of_ior(m.profile_ior));
+    var rough = vec2f(m.roughness);
+    @if(skin_dual_ggx) rough = clamp(m.roughness * m.lobes, vec2f(0.02), vec2f(1.0));
+    let along_x = dpdx(s.normal);
+    let along_y = dpdy(s.normal);
+    skin.alpha = sqrt(vec2f(
+        filtered_alpha2(pow(rough.x, 4.0), along_x, along_y), filtered_alpha2(pow(rough.y, 4.0), along_x, along_y)
+    ));
+    skin.open = 1.0 - saturate(s.at.skin.z) * m.occlusion;
     return skin;
 }
 
@@ -84,16 +96,12 @@ fn skin_diffused(s: Surface, skin: Skinned, to_light: vec3f) -> vec3f {
     @if(skin_wrapped && !skin_wrap_as_written) return vec3f(wrapped_diffuse(n_dot_l, m.wrap));
     @if(skin_pre_integrated && !normal_map) return skin_entry(diffused_place(n_dot_l, abs(skin.curvature)));
     @if(skin_pre_integrated && normal_map) {
-        // A normal for each colour: what scatters farther is bent less.
-        let low = skin.smooth_normal;
-        let low_dot_l = dot(low, to_light);
-        let bent = detail_normals(s.normal, low, low_dot_l);
+        // What scatters farther is bent less by bumps. Light of a normal between two is taken to lie as far between theirs.
+        let low_dot_l = dot(skin.smooth_normal, to_light);
         let k = abs(skin.curvature);
-        return vec3f(
-            skin_entry(diffused_place(low_dot_l, k)).r,
-            skin_entry(diffused_place(dot(bent.green, to_light), k)).g,
-            skin_entry(diffused_place(dot(bent.blue, to_light), k)).b,
-        );
+        let smooth_light = skin_entry(diffused_place(low_dot_l, k));
+        let sharp_light = skin_entry(diffused_place(n_dot_l, k));
+        return mix(sharp_light, smooth_light, vec3f(1.0, detail_smoothing(low_dot_l)));
     }
 }
 
@@ -103,14 +111,11 @@ fn skin_lobe(s: Surface, skin: Skinned, h: vec3f, to_light: vec3f) -> f32 {
     let n_dot_l = max(dot(s.normal, to_light), 1e-4);
     let n_dot_h = saturate(dot(s.normal, h));
     let l_dot_h = saturate(dot(to_light, h));
-    let alpha = m.roughness * m.roughness;
+    let alpha = skin.alpha.x;
     @if(skin_blinn_phong) return PI * blinn_phong_lobe(n_dot_h, l_dot_h, alpha);
     @if(skin_kelemen) return PI * kelemen_lobe(n_dot_h, l_dot_h, alpha);
     @if(skin_ggx) return PI * ggx_distribution(n_dot_h, alpha) * smith_visibility(n_dot_l, skin.n_dot_v, alpha);
-    @if(skin_dual_ggx) {
-        let rough = clamp(m.roughness * m.lobes, vec2f(0.02), vec2f(1.0));
-        return PI * dual_ggx_lobe(n_dot_h, n_dot_l, skin.n_dot_v, rough.x * rough.x, rough.y * rough.y, m.lobe_mix);
-    }
+    @if(skin_dual_ggx) return PI * dual_ggx_lobe(n_dot_h, n_dot_l, skin.n_dot_v, alpha, skin.alpha.y, m.lobe_mix);
 }
 
 // Light of one direction, of which a share of each colour arrives, and a share at the surface itself.
@@ -194,7 +199,7 @@ fn skin_irradiance(s: Surface) -> vec3f {
         let n_dot_l = saturate(dot(s.normal, arriving.to_light));
         sum += arriving.radiance * (n_dot_l * (1.0 - skin_albedo(n_dot_l)));
     }
-    sum += environment_irradiance(s.normal);
+    sum += environment_irradiance(s.normal) * occluded_diffuse(skin.open, s.lit);
     @if(skin_pre_scatter) sum *= sqrt(s.lit);
     return sum;
 }
@@ -235,23 +240,19 @@ fn skin_of_layer(s: Surface, unspread: vec3f) -> vec3f {
     return select(unspread, sum.rgb / max(sum.a, 1e-6), first >= 0.0 && sum.a > 0.0);
 }
 
-// Light that comes round the edge of a toon shade: what the table has where there would be none.
-@if(skin_edge)
-fn skin_edge(s: Surface, skin: Skinned) -> vec3f {
-    let m = &material.skin;
-    let round = skin_entry(diffused_place(s.n_dot_l, abs(skin.curvature))) - saturate(s.n_dot_l);
-    let light = max(round, vec3f(0.0));
-    let strongest = max(light.r, max(light.g, light.b));
-    // At the edge itself it is a seventh or so.
-    let drawn = banded(saturate(strongest * 6.0), m.edge_steps, 0.15);
-    return s.lit * light * (m.edge * drawn / max(strongest, 1e-4));
+// Drawn alone.
+@if(skin_drawn)
+fn skin_model(s: Surface) -> Shaded {
+    return toon_model(s);
 }
 
+@if(!skin_drawn)
 fn skin_model(s: Surface) -> Shaded {
     let m = &material.skin;
     let skin = skin_of(s);
     @if(skin_pre_integrated || skin_wrapped) var l = physical_light(skin_receiver(s, skin), true);
     @if(!skin_pre_integrated && !skin_wrapped) var l = physical_light(s, s.n_dot_l > 0.0);
+    l.gi *= occluded_diffuse(skin.open, s.lit);
     let share = skin_share(s, skin, l.own_lit);
     var lit = skin_lit(s, skin, frame.to_light, share.spread, share.own * f32(s.n_dot_l > 0.0));
     lit.scattered *= s.light;
@@ -279,20 +280,21 @@ fn skin_model(s: Surface) -> Shaded {
     l.direct = color * lit.scattered * left + s.lit * through * left + lit.mirrored;
     let brdf = environment_brdf(skin.n_dot_v, m.roughness);
     let around = (skin.f0 * brdf.x + brdf.y) * m.specular_strength
-        * environment_radiance(reflect(-s.view, s.normal), m.roughness);
+        * environment_radiance(reflect(-s.view, s.normal), m.roughness)
+        * occluded_specular(skin.open, skin.n_dot_v, m.roughness * m.roughness);
     l.ambient = around;
     @if(!skin_screen_space && !skin_texture_space) l.ambient += s.lit * l.gi * left;
     @if(channel_skin_irradiance) shown = skin_irradiance(s);
     @if(channel_skin_scattered) shown = lit.scattered;
     @if(channel_skin_specular) shown = lit.mirrored + around;
     @if(channel_skin_thickness) shown = vec3f(skin.thickness * 0.1);
+    @if(channel_skin_occlusion) shown = vec3f(skin.open);
     @if(channel_skin_curvature) shown = select(
         vec3f(0.0, 0.0, -skin.curvature * 2.0), vec3f(skin.curvature * 2.0), skin.curvature >= 0.0
     );
     @if(channel_skin_profile) shown = strip_hue(u32(m.profile_number));
     @if(skin_toon) {
-        var drawn = toon_model(s);
-        @if(skin_edge) drawn.direct += skin_edge(s, skin) * (s.light * (1.0 - drawn.shading));
+        let drawn = toon_model(s);
         l.direct = mix(drawn.direct, l.direct, m.natural);
         l.ambient = mix(drawn.ambient, l.ambient, m.natural);
         l.lit = drawn.lit;

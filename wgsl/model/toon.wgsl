@@ -7,6 +7,7 @@ import package::bind::uv::texture_uv;
 import package::lib::light::{lamp_shade, luminance};
 import package::lib::mtoon::{mtoon_direct, mtoon_gi, mtoon_shading};
 import package::look::shade_ramp::ramp_color;
+import package::look::skin::{skin_edge, skin_edge_angle};
 import package::material::{material, stage_shade, toon_shift_texture, toon_shift_texture_sampler};
 
 // Reach of the soft border: of the ramp, or of the transition.
@@ -27,6 +28,7 @@ fn toon_border(s: Surface) -> Border {
     b.shading = mtoon_shading(s.n_dot_l, shift, material.toon.toony);
     b.shift = shift;
     @if(soft) b.soft = smoothstep(-soft_width(), soft_width(), s.n_dot_l + shift);
+    @if(skin_edge) b.edge = clamp(asin(clamp(s.n_dot_l + shift, -1.0, 1.0)) / skin_edge_angle(s), -2.0, 2.0);
     b = stage_shade(s, b);
     @if(channel_face_shadow && face_shadow) shown = vec3f(b.shading);
     @if(channel_face_shadow && !face_shadow) shown = vec3f(b.shading) * 0.25;
@@ -55,6 +57,7 @@ fn toon_model(s: Surface) -> Shaded {
         @if(channel_shade_ramp) shown = vec3f(b.soft * (1.0 - b.received));
     }
     @if(!shade_ramp) l.direct = mtoon_direct(b.lit * b.tint, b.shade, b.shading, s.light) * b.bangs;
+    @if(skin_edge) l.direct = skin_edge(s, b, l.direct);
     @if(punctual) l.direct += light_of_lamps(s, b);
     return l;
 }

@@ -1,18 +1,17 @@
-// Light that falls on skin, and how far it goes there, for wgsl/pass/scatter.wgsl.
+// Light that falls on skin, and how far it goes there, for wgsl/pass/scatter_line.wgsl and wgsl/pass/scatter_disc.wgsl.
 import package::bind::frame::frame;
 import package::bind::surface::{framed, lit_by_lamps, surface_of};
 import package::bind::varying::{Varying, surface_varying};
 import package::bind::vertex::{VertexInput, vertex_of};
+import package::lib::skin_light::{BY_DISC, SkinLight, skin_light_packed};
 import package::material::{material, stage_gone, stage_paint, stage_vanish};
 import package::model::skin::skin_irradiance;
 
 struct Irradiance {
-    // Over pi.
-    @location(0) light: vec4f,
+    // A packed SkinLight.
+    @location(0) light: vec4u,
     // Scattering distance, mm in the scene.
     @location(1) distance: vec4f,
-    // Distance along the view, metres, and the number of the profile with half the cosine of the view.
-    @location(2) place: vec2f,
 }
 
 @vertex
@@ -30,6 +29,11 @@ fn fs_main(in: Varying, @builtin(front_facing) front_facing: bool) -> Irradiance
     let d = material.skin.profile_scattering_distance_mm / material.skin.profile_world_scale;
     // Of the triangle: normal maps change no area.
     let flat = abs(dot(normalize(in.normal), s.view));
-    let place = vec2f(frame.near / max(in.clip_position.z, 1e-12), material.skin.profile_number + 0.5 * saturate(flat));
-    return Irradiance(vec4f(skin_irradiance(s), 1.0), vec4f(d, 1.0), place);
+    var light: SkinLight;
+    light.light = skin_irradiance(s);
+    light.cosine = saturate(flat);
+    light.distance = frame.near / max(in.clip_position.z, 1e-12);
+    light.profile = u32(material.skin.profile_number);
+    @if(skin_disc) light.profile |= BY_DISC;
+    return Irradiance(skin_light_packed(light), vec4f(d, 1.0));
 }

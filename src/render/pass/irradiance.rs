@@ -8,19 +8,19 @@ use crate::render::material::Composition;
 use crate::render::targets;
 use crate::render::variants::{Drawn, Request, State};
 
-const PLACE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rg32Float;
+/// Of a packed `SkinLight` of `wgsl/lib/skin_light.wgsl`.
+pub(crate) const SKIN_LIGHT_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
 
 /// What it draws into.
 #[derive(Debug)]
 pub(crate) struct IrradianceTargets {
     pub size: [u32; 2],
-    /// Irradiance over pi.
+    /// Irradiance over pi, and where it is.
     pub light: wgpu::TextureView,
     /// Scattering distances, mm in the scene.
     pub distance: wgpu::TextureView,
-    /// Distance along the view, metres; number of the profile, with half the cosine of the view added. 0 where there is no skin.
-    pub place: wgpu::TextureView,
-    depth: wgpu::TextureView,
+    /// 0 where there is no skin.
+    pub depth: wgpu::TextureView,
 }
 
 impl IrradianceTargets {
@@ -28,9 +28,8 @@ impl IrradianceTargets {
         let make = |label, format| targets::sampled(gpu, label, size, format);
         Self {
             size,
-            light: make("irradiance", HDR_FORMAT),
+            light: make("irradiance", SKIN_LIGHT_FORMAT),
             distance: make("scattering distance", HDR_FORMAT),
-            place: make("skin", PLACE_FORMAT),
             depth: make("skin depth", DEPTH_FORMAT),
         }
     }
@@ -51,7 +50,7 @@ pub(crate) fn request(of: &Composition, material: &Material, colors: bool, sight
         .recipe("irradiance", colors, |c| !c.about.needs.contains(&"prepass"))
         .with("punctual", sight.punctual)
         .with("environment", sight.environment);
-    let targets = vec![HDR_FORMAT.into(), HDR_FORMAT.into(), PLACE_FORMAT.into()];
+    let targets = vec![SKIN_LIGHT_FORMAT.into(), HDR_FORMAT.into()];
     Request {
         recipe,
         state: State { cull: surface_cull(material), depth: Some(depth_state(true)), samples: 1, targets },
@@ -59,13 +58,18 @@ pub(crate) fn request(of: &Composition, material: &Material, colors: bool, sight
 }
 
 /// Draws skin.
-pub(crate) fn encode(encoder: &mut wgpu::CommandEncoder, inputs: &IrradianceInputs<'_>) {
+pub(crate) fn encode(
+    encoder: &mut wgpu::CommandEncoder,
+    inputs: &IrradianceInputs<'_>,
+    timestamp_writes: Option<wgpu::RenderPassTimestampWrites<'_>>,
+) {
     let IrradianceInputs { actors, targets, drawn } = inputs;
     let cleared = |view| Some(targets::color(view, wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT)));
     let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
         label: Some("irradiance"),
-        color_attachments: &[cleared(&targets.light), cleared(&targets.distance), cleared(&targets.place)],
-        depth_stencil_attachment: Some(targets::depth(&targets.depth, 0.0, wgpu::StoreOp::Discard)),
+        color_attachments: &[cleared(&targets.light), cleared(&targets.distance)],
+        depth_stencil_attachment: Some(targets::depth(&targets.depth, 0.0, wgpu::StoreOp::Store)),
+        timestamp_writes,
         ..Default::default()
     });
     for (of, troupe) in actors.bodies.troupes.iter().enumerate() {

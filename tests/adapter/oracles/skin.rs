@@ -1,4 +1,4 @@
-//! Light on skin: highlights, wrapped light, Burley's diffusion, normals of a colour each.
+//! Light on skin: highlights, wrapped light, Burley's diffusion, bumps that colours see each their own way.
 
 use std::f64::consts::PI;
 
@@ -7,7 +7,7 @@ use super::{assert_close, cases, numbers, run, vectors};
 /// Highlights need these files.
 const SPECULAR: [&str; 2] = ["brdf", "skin_specular"];
 /// Diffusion needs these.
-const DIFFUSE: [&str; 3] = ["normal", "kajiya_kay", "skin"];
+const DIFFUSE: [&str; 2] = ["kajiya_kay", "skin"];
 
 fn assert_relative(what: &str, case: usize, found: &[f32], expected: &[f32], relative: f32) {
     for (f, e) in found.iter().zip(expected) {
@@ -279,11 +279,8 @@ fn diffusion_is_finite_everywhere() {
         write3(out + 13u, disc_weight(r, dz, d, clamp(from_d * r, 0.0, 1e6)));
         output[out + 16u] = wrapped_diffuse(r, dz);
         output[out + 17u] = wrapped_diffuse_as_written(r, dz);
-        // Normals that are opposite, or none at all.
-        let opposite = detail_normals(vec3f(0.0, 0.0, 1.0), vec3f(0.0, 0.0, -1.0), dz);
-        let none = detail_normals(vec3f(0.0), vec3f(0.0), dz);
-        write3(out + 18u, abs(opposite.green) + abs(none.green));
-        write3(out + 21u, abs(opposite.blue) + abs(none.blue));";
+        write3(out + 18u, vec3f(detail_smoothing(dz), 0.0));
+        write3(out + 21u, line_beyond(r, line_rate(d)));";
     for (row, found) in rows.iter().zip(run(&DIFFUSE, body, &rows, 24)) {
         assert!(found.iter().all(|f| f.is_finite() && *f >= 0.0), "{row:?}: {found:?}");
     }
@@ -296,28 +293,26 @@ fn normals_of_colours_follow_their_vectors() {
     let rows: Vec<Vec<f32>> = list.iter().map(|c| numbers(c, &["n_high", "n_low", "L"])).collect();
     let body = "
         let low = input3(base + 3u); let l = input3(base + 6u);
-        let n = detail_normals(input3(base), low, dot(low, l));
-        write3(out, n.green); write3(out + 3u, n.blue);
-        write3(out + 6u, vec3f(dot(low, l), dot(n.green, l), dot(n.blue, l)));";
+        let smoothing = detail_smoothing(dot(low, l));
+        let green = normalize(mix(input3(base), low, smoothing.x));
+        let blue = normalize(mix(input3(base), low, smoothing.y));
+        write3(out, green); write3(out + 3u, blue);
+        write3(out + 6u, vec3f(dot(low, l), dot(green, l), dot(blue, l)));";
     for (i, (case, found)) in list.iter().zip(run(&DIFFUSE, body, &rows, 9)).enumerate() {
         assert_close("normals", i, &found, &numbers(case, &["n_g", "n_b", "NoL"]), 1e-5);
     }
 }
 
-/// A flat map changes nothing; bumps are flattest for red and clearest for blue; all normals are unit.
+/// Bumps are flattest for red and clearest for blue, and all flat away from the light.
 #[test]
-fn normals_of_colours_keep_their_order() {
-    let rows = grid(&[&[-1.2, -0.3, 0.0, 1e-3, 0.2, 0.7, 1.5], &[-1.0, -0.5, 0.0, 0.3, 0.9, 1.0]]);
+fn bumps_keep_the_order_of_colours() {
+    let rows = grid(&[&[-2.0, -1.0, -0.5, 0.0, 0.3, 0.9, 1.0]]);
     let body = "
-        let low = normalize(vec3f(0.3, -0.2, 0.9)); let side = normalize(cross(low, vec3f(0.0, 1.0, 0.0)));
-        let bump = detail_normals(normalize(low + input[base] * side), low, input[base + 1u]);
-        let plain = detail_normals(low, low, input[base + 1u]);
-        output[out] = length(bump.green); output[out + 1u] = length(bump.blue);
-        output[out + 2u] = distance(plain.green, low); output[out + 3u] = distance(plain.blue, low);
-        output[out + 4u] = abs(dot(bump.green, side)); output[out + 5u] = abs(dot(bump.blue, side));";
-    for (i, (row, found)) in rows.iter().zip(run(&DIFFUSE, body, &rows, 6)).enumerate() {
-        assert_close("length and flatness", i, &found[..4], &[1.0, 1.0, 0.0, 0.0], 2e-6);
-        assert!(found[4] <= found[5] + 1e-6, "{row:?}: {found:?}");
+        let found = detail_smoothing(input[base]);
+        output[out] = found.x; output[out + 1u] = found.y;";
+    for (row, found) in rows.iter().zip(run(&DIFFUSE, body, &rows, 2)) {
+        assert!(found[0] <= 1.0 && found[0] >= found[1] && found[1] >= 0.0, "{row:?}: {found:?}");
+        assert!(row[0] > 0.0 || found == [1.0, 1.0], "{row:?}: {found:?}");
     }
 }
 
@@ -356,6 +351,29 @@ fn weights_of_the_drawn_profile_are_one() {
         assert_close("own weight", i, &found[..1], &[1.0], 2e-6);
         assert!(found[2] >= 0.0 && found[2] <= 0.757 / 0.2 + 1e-4, "{found:?}");
     }
+}
+
+/// Within 0.005 of the integral: light goes r far and to all sides alike, so that a share of it goes farther along a line.
+#[test]
+fn light_along_a_line_is_the_integral_of_the_line_spread() {
+    let ways: Vec<f32> = (0..60).map(|i| 0.01 * (i * i) as f32).collect();
+    let rows = grid(&[&ways, &[0.2, 0.757, 3.0]]);
+    let body = "
+        let x = input[base]; let d = input[base + 1u];
+        var sum = 0.0;
+        for (var k = 0; k < 8192; k++) {
+            let r = burley_radius((f32(k) + 0.5) / 8192.0, d);
+            sum += select(0.0, acos(min(x / max(r, 1e-9), 1.0)) * 0.6366198, r > x);
+        }
+        output[out] = line_beyond(x, line_rate(vec3f(d))).x;
+        output[out + 1u] = sum / 8192.0;
+        output[out + 2u] = line_beyond(x + 0.01, line_rate(vec3f(d))).x;";
+    for (i, found) in run(&DIFFUSE, body, &rows, 3).iter().enumerate() {
+        assert_close("light beyond", i, &found[..1], &found[1..2], 5e-3);
+        assert!(found[2] <= found[0] && found[2] >= 0.0, "case {i}: {found:?}");
+    }
+    let all = run(&DIFFUSE, "output[out] = line_beyond(0.0, line_rate(vec3f(input[base]))).x;", &[vec![0.757]], 1);
+    assert_close("all of the light", 0, &all[0], &[1.0], 1e-6);
 }
 
 /// Values lie at centres of texels, and no block of rows bleeds into the next.

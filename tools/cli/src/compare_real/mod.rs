@@ -46,7 +46,8 @@ pub(crate) struct Args {
     /// Only references whose name fits; * stands for anything.
     #[arg(long, value_name = "GLOB")]
     only: Option<String>,
-    /// Skin by this method alone: lambert, wrapped, pre-integrated, screen-space or texture-space.
+    /// Skin by this method alone: lambert, wrapped, pre-integrated, screen-space, screen-space-disc or
+    /// texture-space.
     #[arg(long, value_name = "NAME", value_parser = word::<SkinDiffuse>)]
     method: Option<SkinDiffuse>,
     /// How light comes through skin: thin or thick [default: thick for ears and wedges].

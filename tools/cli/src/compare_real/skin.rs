@@ -10,11 +10,12 @@ use serde::Deserialize;
 use super::{Reference, Shot};
 
 /// Ways of finding the light that scatters, each compared.
-pub(super) const METHODS: [SkinDiffuse; 5] = [
+pub(super) const METHODS: [SkinDiffuse; 6] = [
     SkinDiffuse::Lambert,
     SkinDiffuse::Wrapped,
     SkinDiffuse::PreIntegrated,
     SkinDiffuse::ScreenSpace,
+    SkinDiffuse::ScreenSpaceDisc,
     SkinDiffuse::TextureSpace,
 ];
 
