@@ -46,6 +46,9 @@ plain_parts!(SkinDiffuse, SkinSpecular);
 crate::section! {
     /// Skin and what scatters light as it does, in the place of the toon shading or as far as wanted.
     ///
+    /// Curvature, thickness and occlusion are measured at upload, of the pose at rest with its weights of morph targets
+    /// ([`Node::morph_weights`](crate::scene::Node::morph_weights)).
+    ///
     /// Sources: Penner 2011; Jimenez et al. 2015; Golubev 2018; d'Eon and Luebke 2007; Ma et al. 2007; Christensen and Burley 2015.
     #[derive(Copy)]
     Skin = "skin" {

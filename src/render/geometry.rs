@@ -157,13 +157,20 @@ impl Geometry {
         parts.sort_by_key(|(id, _, p, ..)| (blend(p), mask(p), if blend(p) { 0 } else { p.material }, *id));
         let mut materials_by_id = vec![0; parts.len()];
         let is_skin = |p: &Primitive| scene.materials.get(p.material).is_some_and(|m| m.skin.is_some());
-        let skin: Vec<_> = parts.iter().filter(|part| is_skin(part.2)).map(|part| (part.2, part.4)).collect();
+        let at_rest = |node: usize, primitive, character_from_mesh| skin::Part {
+            primitive,
+            character_from_mesh,
+            morph_weights: &scene.nodes[node].morph_weights,
+        };
+        let skin: Vec<_> =
+            parts.iter().filter(|part| is_skin(part.2)).map(|part| at_rest(part.1, part.2, part.4)).collect();
         // What is drawn on skin lies on it, and hides nothing from it.
         let is_on_skin = |p: &Primitive| matches!(p.role, Role::Lash | Role::Brow | Role::EyeHighlight);
         let hides = |node: usize, p: &Primitive| {
             !is_skin(p) && !blend(p) && !is_on_skin(p) && sight(scene, &in_head, node).others
         };
-        let hiding: Vec<_> = parts.iter().filter(|part| hides(part.1, part.2)).map(|part| (part.2, part.4)).collect();
+        let hides = parts.iter().filter(|part| hides(part.1, part.2));
+        let hiding: Vec<_> = hides.map(|part| at_rest(part.1, part.2, part.4)).collect();
         let scales = scene.materials.iter().filter_map(|m| Some(m.skin.as_ref()?.profile.world_scale));
         let mut skin = skin::measured(&skin, &hiding, scales.fold(f32::MAX, f32::min)).into_iter();
         for (id, node, primitive, group, rest_matrix) in &parts {

@@ -20,7 +20,7 @@ pub use profile::{DiffusionProfile, Texturing, Transmission};
 
 pub(crate) use disc::{MOST_TAPS, discs};
 pub(crate) use line::{MOST_LINE_TAPS, lines};
-pub(crate) use measures::measured;
+pub(crate) use measures::{Part, measured};
 pub(crate) use seams::Seams;
 pub(crate) use specular::Speculars;
 pub(crate) use tables::{TABLE_SIZE, skin_table};

@@ -29,7 +29,8 @@ fn texture_frame(n: vec3f, position: vec3f, uv: vec2f) -> vec4f {
 fn normal_map_smooth(bent: Surface, metres_per_uv: vec2f) -> vec3f {
     let texels = vec2f(textureDimensions(normal_map_texture));
     let texel_mm = 1000.0 * max(metres_per_uv.x / texels.x, metres_per_uv.y / texels.y);
-    let level = max(log2(1.0 / max(texel_mm, 1e-6)), 0.0);
+    // A whole one: half as many texels are read.
+    let level = max(round(-log2(max(texel_mm, 1e-6))), 0.0);
     let normal = normalize(bent.at.normal);
     let at = texture_uv(bent.uv, material.normal_map.texture_uv);
     let found = textureSampleLevel(normal_map_texture, normal_map_texture_sampler, at, level).xyz;
