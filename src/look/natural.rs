@@ -66,12 +66,12 @@ fn rough(material: &mut Material, roughness: f32) {
     }
 }
 
-/// Light scatters in it; the roughness of a file counts as far as skin may have it. Below 0.5 the sharper lobe is smoother than that of
-/// any face that Weyrich et al. 2006 measured, whose slopes are 0.2 to 0.35 (roughness 0.45 to 0.6), and looks oiled.
+/// Light scatters in it; the roughness of a file counts as far as skin may have it: below 0.5 the sharper lobe looks oiled. Drawn
+/// faces look soiled where all that hides light from them counts.
 fn skin(material: &mut Material) {
     rough(material, 0.5);
     if let Shading::Standard(surface) = &material.shading {
-        material.skin = Some(Skin { roughness: surface.roughness.clamp(0.5, 0.7), ..Skin::default() });
+        material.skin = Some(Skin { roughness: surface.roughness.clamp(0.5, 0.7), occlusion: 0.7, ..Skin::default() });
     }
 }
 

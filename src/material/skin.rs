@@ -128,7 +128,7 @@ crate::section! {
         /// Polished marble.
         marble { profile: profile("marble"), specular: SkinSpecular::Ggx, roughness: 0.3 }
         /// Drawn skin: toon shade with a warm band along its border, over a wider angle where a surface is rounder.
-        drawn { natural: 0.0, edge: 0.6, curvature_scale: 2.0 }
+        drawn { natural: 0.0, edge: 0.4, curvature_scale: 3.0 }
     }
 }
 

@@ -182,7 +182,8 @@ fn skin_way(s: Surface, skin: Skinned) -> f32 {
     @if(cast_shadow) {
         let mm = 1000.0 * material.skin.profile_world_scale;
         let dark = shadow_depth(s.at.actor, s.at.shadow) * mm;
-        @if(skin_thick) way = dark;
+        // At the border of light the map knows no way; there the light comes through at a slant.
+        @if(skin_thick) way = max(dark, way * saturate(-s.n_dot_l));
         // What stands apart before it takes its light.
         @if(!skin_thick) way += max(dark - 2.0 * way - 10.0, 0.0);
     }
