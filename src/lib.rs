@@ -34,6 +34,7 @@ extern crate self as hikage;
 pub mod bench;
 pub mod color;
 mod error;
+pub mod eye;
 pub mod golden;
 pub mod gpu;
 pub mod hair;

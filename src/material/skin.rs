@@ -118,7 +118,7 @@ crate::section! {
         /// Light skin.
         skin_light {}
         /// Dark skin.
-        skin_dark { profile: profile("skin-dark"), roughness: 0.4 }
+        skin_dark { profile: profile("skin-dark") }
         /// Polished jade.
         jade { profile: profile("jade"), specular: SkinSpecular::Ggx, roughness: 0.25 }
         /// Paraffin wax.
@@ -203,12 +203,13 @@ impl Section for Skin {
     }
 }
 
-/// Most that half floats count one by one.
-const MOST_NUMBERS: u32 = 2047;
+/// Below the flag beside it (`wgsl/lib/skin_light.wgsl`).
+const MOST_NUMBERS: u32 = 0xffff;
 
-/// A number for skin of this profile, which tells it from other skin in the picture: 1 to 2047.
+/// A number for skin of this profile, which tells it from other skin in the picture: 1 to 65535.
 fn number(profile: &DiffusionProfile) -> f32 {
-    let numbers = profile.scattering_distance_mm.into_iter().chain([profile.world_scale]);
+    let texturing = f32::from(u8::from(profile.texturing == Texturing::PreAndPost));
+    let numbers = profile.scattering_distance_mm.into_iter().chain([profile.world_scale, texturing]);
     // FNV-1a.
     let hash = numbers.flat_map(f32::to_le_bytes).fold(0x811c_9dc5u32, |h, b| (h ^ u32::from(b)).wrapping_mul(0x0100_0193));
     (1 + hash % MOST_NUMBERS) as f32

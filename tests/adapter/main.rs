@@ -25,6 +25,7 @@ mod self_shadow;
 mod skin;
 mod skin_drawn;
 mod skin_texture_space;
+mod skin_texturing;
 mod stage;
 mod strips;
 mod temporal;

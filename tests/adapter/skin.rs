@@ -26,7 +26,7 @@ const SPECULARS: [SkinSpecular; 4] =
     [SkinSpecular::BlinnPhong, SkinSpecular::Kelemen, SkinSpecular::Ggx, SkinSpecular::DualGgx];
 
 /// Skin that neither mirrors nor lets light through.
-fn matt(diffuse: SkinDiffuse) -> Skin {
+pub(super) fn matt(diffuse: SkinDiffuse) -> Skin {
     Skin { diffuse, taps: 40, specular_strength: 0.0, transmission: 0.0, ..Skin::default() }
 }
 
@@ -39,7 +39,7 @@ fn white(skin: Skin) -> Material {
     colored(1.0, skin)
 }
 
-fn colored(albedo: f32, skin: Skin) -> Material {
+pub(super) fn colored(albedo: f32, skin: Skin) -> Material {
     Material {
         base: Base { color: [albedo, albedo, albedo, 1.0], texture: None },
         skin: Some(skin),
@@ -77,9 +77,9 @@ fn furnace(mut shot: Shot) -> Shot {
 }
 
 /// Linear light of half floats, premultiplied.
-struct Picture {
+pub(super) struct Picture {
     width: usize,
-    texels: Vec<[f32; 4]>,
+    pub(super) texels: Vec<[f32; 4]>,
 }
 
 impl Picture {
@@ -103,12 +103,12 @@ impl Picture {
     }
 }
 
-fn renderer(gpu: &Gpu) -> Renderer {
+pub(super) fn renderer(gpu: &Gpu) -> Renderer {
     let output = Output { format: wgpu::TextureFormat::Rgba16Float, ..Output::default() };
     Renderer::with_output(gpu, output).expect("a renderer")
 }
 
-fn shoot(renderer: &Renderer, gpu: &Gpu, scene: &Scene, shot: &Shot) -> Picture {
+pub(super) fn shoot(renderer: &Renderer, gpu: &Gpu, scene: &Scene, shot: &Shot) -> Picture {
     let mut stage = staged(renderer.upload(scene));
     shot.set(&mut stage);
     let texture = target(gpu, shot.size, wgpu::TextureFormat::Rgba16Float, 1);
@@ -163,7 +163,7 @@ fn edge(skin: Skin) -> Scene {
 }
 
 /// Light so far inside of an edge of light, by Burley's profile: the mean over rings that hold as much light each.
-fn edge_response(of: &DiffusionProfile, x_mm: f32, channel: usize) -> f32 {
+pub(super) fn edge_response(of: &DiffusionProfile, x_mm: f32, channel: usize) -> f32 {
     const RINGS: usize = 2000;
     let beyond = |i: usize| {
         let r = of.inverse_cdf((i as f32 + 0.5) / RINGS as f32, channel);

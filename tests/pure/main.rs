@@ -4,6 +4,7 @@
 mod gltf;
 
 mod expressions;
+mod eye;
 mod golden_comparer;
 mod hair;
 mod import;

@@ -4,6 +4,7 @@
 //! another adapter than the default.
 
 mod esm;
+mod eye;
 mod face;
 mod hair;
 mod mtoon;

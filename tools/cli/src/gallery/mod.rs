@@ -5,10 +5,10 @@ mod sheets;
 
 use std::path::PathBuf;
 
-use glam::{Quat, Vec3};
-use hikage::motion::Stance;
+use glam::{Mat4, Quat, Vec3};
+use hikage::motion::{Pose, Stance};
 use hikage::picture::{encode_png, write_atomic};
-use hikage::scene::{Framing, HumanBone, Image, PunctualLight, Scene};
+use hikage::scene::{Framing, HumanBone, Image, PunctualLight, Role, Scene};
 use hikage::{Actor, Background, Output, Renderer, Stage, View};
 
 use crate::args::LookName;
@@ -17,13 +17,14 @@ use crate::output::make_folder;
 use crate::sheet::{BEHIND, GAP, LINE, paper, place, write};
 use crate::spinner::Spinner;
 use crate::{deadline, setup};
-use sheets::{Camera, Panel, Row, Sheet};
+use sheets::{Camera, Panel, Row, Sheet, Substance};
 
 /// Arguments of `hikage gallery`.
 #[derive(clap::Args)]
 #[command(after_help = "\
-Example:
-  hikage gallery -o gallery")]
+Examples:
+  hikage gallery -o gallery
+  hikage gallery -o gallery --only skin --skin head.glb")]
 pub(crate) struct Args {
     /// Folder for the sheets and index.html.
     #[arg(short, long, value_name = "DIR")]
@@ -31,6 +32,9 @@ pub(crate) struct Args {
     /// Only these sheets, by name: metal,fire.
     #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
     only: Vec<String>,
+    /// Model of the sheet skin: .vrm, .glb or .gltf [default: the built-in character].
+    #[arg(long, value_name = "MODEL")]
+    skin: Option<PathBuf>,
     /// Height of one panel, pixels.
     #[arg(long, value_name = "PIXELS", default_value_t = 384, value_parser = clap::value_parser!(u32).range(64..=1024))]
     panel: u32,
@@ -53,11 +57,16 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let plain = setup::load(None)?;
     let mut scene = plain.clone();
     setup::apply_look(Some(&LookName::Anime), None, &mut scene)?;
+    let skinned = args.skin.as_deref().map(|model| setup::load(Some(model))).transpose()?;
     let gpu = setup::gpu(args.adapter.as_deref())?;
     let renderer = Renderer::with_output(&gpu, Output::default())?;
     for (i, sheet) in sheets.iter().enumerate() {
         spinner.step(format!("{} of {}: {}", i + 1, sheets.len(), sheet.title));
-        let picture = draw(&renderer, [&plain, &scene], sheet, args.panel)?;
+        let scenes = match &skinned {
+            Some(model) if sheet.name == sheets::SKIN => [model; 2],
+            _ => [&plain, &scene],
+        };
+        let picture = draw(&renderer, scenes, sheet, args.panel)?;
         write_atomic(args.output.join(format!("{}.png", sheet.name)), &encode_png(&picture)?)?;
     }
     drop(spinner);
@@ -76,18 +85,50 @@ fn draw(renderer: &Renderer, [plain, looked]: [&Scene; 2], sheet: &Sheet, panel:
     for row in &sheet.rows {
         let mut scene = if row.is_plain { plain.clone() } else { looked.clone() };
         (row.change)(&mut scene);
-        let mut stage = Stage::of([Actor::new(&renderer.upload(&scene)?)]);
+        let mut stage = staged(renderer, &scene)?;
         let lights = stage.lights.clone();
         let mut left = GAP;
         for shown in &row.panels {
             let size = [width(shown), panel];
             stage.lights.clone_from(&lights);
-            let drawn = draw_panel(renderer, &mut stage, &scene, shown, size)?;
+            let drawn = match &shown.substances[..] {
+                [] => draw_panel(renderer, &mut stage, &scene, shown, size)?,
+                list => draw_substances(renderer, &scene, list, shown, size)?,
+            };
             place(&mut picture, &drawn, left, top);
             write(&mut picture, &shown.caption, left, top + panel + 4);
             left += size[0] + GAP;
         }
         top += panel + LINE + GAP;
+    }
+    Ok(picture)
+}
+
+fn staged(renderer: &Renderer, scene: &Scene) -> Result<Stage, Failure> {
+    Ok(Stage::of([Actor::new(&renderer.upload(scene)?)]))
+}
+
+/// A picture of which each substance has a share, from left to right, with lines between them.
+fn draw_substances(
+    renderer: &Renderer,
+    scene: &Scene,
+    list: &[Substance],
+    shown: &Panel,
+    size: [u32; 2],
+) -> Result<Image, Failure> {
+    let mut picture = paper(size[0], size[1]);
+    let stride = size[0] as usize * 4;
+    for (i, substance) in list.iter().enumerate() {
+        let mut scene = scene.clone();
+        substance.apply(&mut scene);
+        let drawn = draw_panel(renderer, &mut staged(renderer, &scene)?, &scene, shown, size)?;
+        let from = size[0] as usize * i / list.len() * 4;
+        for (to, line) in picture.pixels.chunks_exact_mut(stride).zip(drawn.pixels.chunks_exact(stride)) {
+            to[from..].copy_from_slice(&line[from..]);
+            if i > 0 {
+                to[from..from + 4].fill(255);
+            }
+        }
     }
     Ok(picture)
 }
@@ -102,12 +143,22 @@ fn draw_panel(
     let expressions: Vec<(String, f32)> = panel.expression.iter().map(|e| ((*e).to_owned(), 1.0)).collect();
     let stance = match panel.camera {
         Camera::Framed(..) => panel.stance,
-        Camera::Close { .. } => Stance::Rest,
+        _ => Stance::Rest,
     };
     let mut pose = setup::pose(scene, stance, &expressions)?;
     let mut view = match panel.camera {
         Camera::Framed(framing, yaw) => View::framed_pose(scene, &pose, framing, yaw.to_radians(), size),
         Camera::Close { part, yaw, pitch } => close(scene, part, [yaw, pitch], size),
+        Camera::Head { yaw, height } => {
+            let points = head(scene)?;
+            let (low, high) = bounds(&points);
+            let extent = high - low;
+            looking_at((low + high) * 0.5, 0.55 * height * extent.y.max(extent.x), [yaw, 0.0], size)
+        }
+        Camera::Ear { yaw } => {
+            let tip = head(scene)?.into_iter().max_by(|a, b| a.x.total_cmp(&b.x)).unwrap_or_default();
+            looking_at(tip - Vec3::X * 0.012, 0.045, [yaw, 0.0], size)
+        }
     };
     if let Some(head) = scene.bone_node(HumanBone::Head) {
         pose.locals[head].rotation *= Quat::from_rotation_y(panel.head_deg.to_radians());
@@ -135,20 +186,60 @@ fn close(scene: &Scene, part: &str, [yaw, pitch]: [f32; 2], size: [u32; 2]) -> V
     let of_mesh = |mesh: &'_ hikage::scene::Mesh| mesh.name == part;
     let points =
         scene.meshes.iter().flat_map(|m| m.primitives.iter().filter(move |p| of_mesh(m) || is_named(p.material)));
-    let left = points.flat_map(|p| &p.positions).map(|p| Vec3::from_array(*p)).filter(|p| p.x > -0.02);
-    let (low, high) = left.fold((Vec3::MAX, Vec3::MIN), |(l, h), p| (l.min(p), h.max(p)));
-    let mut view = View { size, ..View::framed(scene, Framing::Face, 0.0, size) };
-    let (yaw, pitch) = (yaw.to_radians(), pitch.to_radians());
-    let away = Vec3::new(yaw.sin() * pitch.cos(), pitch.sin(), yaw.cos() * pitch.cos());
-    let camera = &mut view.camera;
-    camera.target = (low + high) * 0.5;
-    camera.eye = camera.target + away * 0.6;
-    camera.near = 0.02;
+    let left: Vec<Vec3> =
+        points.flat_map(|p| &p.positions).map(|p| Vec3::from_array(*p)).filter(|p| p.x > -0.02).collect();
+    let (low, high) = bounds(&left);
     let aspect = size[0] as f32 / size[1] as f32;
     let extent = (high - low).max(Vec3::ZERO);
     let half = 0.58 * extent.y.max(extent.x.hypot(extent.z) * 0.9 / aspect);
-    camera.fov_y_rad = 2.0 * (half / 0.6).atan();
-    view
+    looking_at((low + high) * 0.5, half, [yaw, pitch], size)
+}
+
+fn bounds(points: &[Vec3]) -> (Vec3, Vec3) {
+    points.iter().fold((Vec3::MAX, Vec3::MIN), |(l, h), p| (l.min(*p), h.max(*p)))
+}
+
+/// Heights of heads, metres: of a drawn face, whose chin its neck hides from the bounds, and of a real one.
+const HEADS: [(Role, f32); 2] = [(Role::Face, 0.25), (Role::Skin, 0.22)];
+
+/// Skin within a head's height of its top, at rest; that of the face alone where it is known.
+fn head(scene: &Scene) -> Result<Vec<Vec3>, Failure> {
+    let world = scene.world_from_nodes(&Pose::rest(scene).locals);
+    let of = |role: Role| -> Vec<Vec3> {
+        let parts = scene.mesh_nodes().flat_map(|(node, mesh)| {
+            // Joints, not its node, place what is skinned.
+            let matrix = if scene.nodes[node].skin.is_some() {
+                Mat4::IDENTITY
+            } else {
+                world[node]
+            };
+            mesh.primitives.iter().map(move |p| (matrix, p))
+        });
+        let parts = parts.filter(|(_, p)| p.role == role);
+        parts.flat_map(|(m, p)| p.positions.iter().map(move |p| m.transform_point3(Vec3::from_array(*p)))).collect()
+    };
+    let heads = HEADS.map(|(role, height)| {
+        let mut points = of(role);
+        let top = bounds(&points).1.y;
+        points.retain(|p| p.y > top - height);
+        points
+    });
+    heads
+        .into_iter()
+        .find(|points| !points.is_empty())
+        .ok_or_else(|| Failure::input("--skin: the model has no part that is known as skin (`hikage inspect`)"))
+}
+
+/// A view from 0.6 m to a target, whose half height fills half of the picture's.
+fn looking_at(target: Vec3, half: f32, [yaw, pitch]: [f32; 2], size: [u32; 2]) -> View {
+    let (yaw, pitch) = (yaw.to_radians(), pitch.to_radians());
+    let away = Vec3::new(yaw.sin() * pitch.cos(), pitch.sin(), yaw.cos() * pitch.cos());
+    let (eye, fov_y_rad) = (target + away * 0.6, 2.0 * (half / 0.6).atan());
+    View {
+        size,
+        camera: hikage::scene::Camera { target, eye, near: 0.02, fov_y_rad, ..Default::default() },
+        ..View::default()
+    }
 }
 
 /// Her face, at ease.
@@ -168,6 +259,7 @@ impl Default for Panel {
             coolness: None,
             time_s: 0.0,
             background: None,
+            substances: Vec::new(),
         }
     }
 }
