@@ -20,7 +20,7 @@ pub enum SkinDiffuse {
     PreIntegrated,
     /// By spreading the light of the picture along its rows and columns (after Jimenez et al. 2015).
     ScreenSpace,
-    /// By discs over the picture (Golubev 2018): for what is not flat over the reach of its light.
+    /// By discs over the picture (Golubev 2018): a little cheaper, coarser where a body is as small as the reach of its light.
     ScreenSpaceDisc,
     /// By spreading light over the texture coordinates (d'Eon and Luebke 2007), of which each place must be one of the surface.
     TextureSpace,

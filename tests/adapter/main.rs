@@ -24,6 +24,7 @@ mod own_look;
 mod self_shadow;
 mod skin;
 mod skin_drawn;
+mod skin_screen_space;
 mod skin_texture_space;
 mod skin_texturing;
 mod stage;

@@ -1,4 +1,4 @@
-// Spreads the light on skin over its texture coordinates: the discs of wgsl/pass/scatter.wgsl, stretched as texels are, with
+// Spreads the light on skin over its texture coordinates: the discs of wgsl/pass/scatter_disc.wgsl, stretched as texels are, with
 // distances straight through space (d'Eon and Luebke 2007; Christensen and Burley 2015).
 import package::bind::picture::{PictureVarying, picture_varying};
 import package::lib::skin::tap_weight;
