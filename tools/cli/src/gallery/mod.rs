@@ -2,6 +2,7 @@
 
 mod page;
 mod sheets;
+mod skin;
 
 use std::path::PathBuf;
 
@@ -17,7 +18,8 @@ use crate::output::make_folder;
 use crate::sheet::{BEHIND, GAP, LINE, paper, place, write};
 use crate::spinner::Spinner;
 use crate::{deadline, setup};
-use sheets::{Camera, Panel, Row, Sheet, Substance};
+use sheets::{Camera, Panel, Row, Sheet};
+use skin::Substance;
 
 /// Arguments of `hikage gallery`.
 #[derive(clap::Args)]
@@ -63,7 +65,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     for (i, sheet) in sheets.iter().enumerate() {
         spinner.step(format!("{} of {}: {}", i + 1, sheets.len(), sheet.title));
         let scenes = match &skinned {
-            Some(model) if sheet.name == sheets::SKIN => [model; 2],
+            Some(model) if sheet.name == skin::NAME => [model; 2],
             _ => [&plain, &scene],
         };
         let picture = draw(&renderer, scenes, sheet, args.panel)?;
