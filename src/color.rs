@@ -30,6 +30,13 @@ impl LinearRgb {
         Srgb(self.0.map(|c| (srgb_from_linear(c) * 255.0).round() as u8))
     }
 
+    /// Luminance of the sRGB primaries (Rec. 709): 1 for white.
+    #[must_use]
+    pub fn luminance(self) -> f32 {
+        let [r, g, b] = self.0;
+        0.2126 * r + 0.7152 * g + 0.0722 * b
+    }
+
     /// Multiplies every channel by `factor`.
     #[must_use]
     pub fn scaled(self, factor: f32) -> Self {

@@ -30,6 +30,7 @@ const SCENE_LOOKS: &[(&str, SceneOff)] = &[
     ("bangs", |s| s.bangs.take().is_some()),
     ("self_shadow", |s| s.self_shadow.take().is_some()),
     ("eyes_through", |s| s.eyes_through.take().is_some()),
+    ("pupils", |s| s.pupils.take().is_some()),
     ("post", |s| s.post.take().is_some()),
 ];
 

@@ -6,7 +6,7 @@ use glam::{DMat4, DVec3, Mat3, Mat4, Vec3};
 
 use super::EyeDimensions;
 use super::sphere::{Sample, Sphere};
-use crate::scene::Primitive;
+use crate::scene::{HumanBone, Primitive, Scene};
 
 /// Place, size and direction of an eye at rest, in the space that its mesh was brought to.
 ///
@@ -32,6 +32,18 @@ pub struct EyeBone {
     pub forward: Vec3,
     /// Upwards; any length but 0.
     pub up: Vec3,
+}
+
+impl EyeBone {
+    /// Those of a scene at rest, in character space.
+    pub(crate) fn of(scene: &Scene) -> Vec<Self> {
+        let rest = scene.rest_world_from_nodes();
+        let bone = |bone| {
+            let position = rest.get(scene.bone_node(bone)?)?.w_axis.truncate();
+            Some(Self { position, forward: Vec3::Z, up: Vec3::Y })
+        };
+        [HumanBone::LeftEye, HumanBone::RightEye].into_iter().filter_map(bone).collect()
+    }
 }
 
 /// Why a mesh has no frame of an eye.
@@ -78,6 +90,8 @@ const GAP: f64 = 0.1;
 /// What of the area must lie on the sphere, and how near, shares.
 const ROUND: f32 = 0.4;
 const NEAR: f64 = 0.05;
+/// Least share of a sphere that is a ball or the front of one, and not a cap such as a cornea or a bowl.
+const COVERED: f64 = 0.3;
 /// Height from which on a part stands out of the sphere or lies within it: cornea, iris. Share of the radius.
 const STANDS_OUT: f64 = 0.02;
 /// How much must stand out: mean square over the area; and how far to one side, 0 (all around) to 1.
@@ -124,12 +138,11 @@ impl EyeFrame {
 
     fn found(samples: &[Sample], bones: &[EyeBone]) -> Result<Self, NoEyeFrame> {
         let sphere = Sphere::through(samples).ok_or(NoEyeFrame::Flat)?;
-        let (low, high) = bounds(samples);
-        if sphere.radius > (high - low).max_element() {
-            return Err(NoEyeFrame::Flat);
-        }
         let area = |samples: &mut dyn Iterator<Item = &Sample>| samples.map(|s| s.area).sum::<f64>();
         let near = area(&mut samples.iter().filter(|s| sphere.height(s.at).abs() <= NEAR));
+        if near < COVERED * 4.0 * std::f64::consts::PI * sphere.radius.powi(2) {
+            return Err(NoEyeFrame::Flat);
+        }
         let round = (near / area(&mut samples.iter())) as f32;
         if round < ROUND {
             return Err(NoEyeFrame::NotRound(round));
@@ -176,33 +189,41 @@ fn bounds(samples: &[Sample]) -> (DVec3, DVec3) {
 }
 
 /// What of a primitive hangs together by its vertices: the corners of its triangles, each with its share of the area.
-fn pieces_of(primitive: &Primitive, rest: Mat4) -> Result<Vec<Vec<Sample>>, NoEyeFrame> {
+pub(super) fn pieces_of(primitive: &Primitive, rest: Mat4) -> Result<Vec<Vec<Sample>>, NoEyeFrame> {
     let rest: DMat4 = rest.as_dmat4();
     let points: Vec<DVec3> =
         primitive.positions.iter().map(|p| rest.transform_point3(Vec3::from(*p).as_dvec3())).collect();
     let triangles = primitive.indices.as_chunks::<3>().0;
     let is_sound = |i: &u32| points.get(*i as usize).is_some_and(|p| p.is_finite());
-    if !triangles.as_flattened().iter().all(is_sound) {
-        return Err(NoEyeFrame::Broken);
-    }
-    let mut roots: Vec<usize> = (0..points.len()).collect();
-    for [a, b, c] in triangles {
-        for other in [b, c] {
-            let (a, b) = (root(&mut roots, *a as usize), root(&mut roots, *other as usize));
-            roots[b] = a;
-        }
-    }
+    let roots = roots_of(primitive).filter(|_| triangles.as_flattened().iter().all(is_sound));
+    let Some(roots) = roots else { return Err(NoEyeFrame::Broken) };
     let mut pieces = vec![Vec::new(); points.len()];
     for triangle in triangles {
         let [a, b, c] = triangle.map(|i| points[i as usize]);
         let area = (b - a).cross(c - a).length() / 6.0;
-        let piece = &mut pieces[root(&mut roots, triangle[0] as usize)];
+        let piece = &mut pieces[roots[triangle[0] as usize]];
         if area > 0.0 {
             piece.extend([a, b, c].map(|at| Sample { at, area }));
         }
     }
     pieces.retain(|piece| !piece.is_empty());
     Ok(pieces)
+}
+
+/// By vertex, the one that stands for all that hang together with it by triangles; `None` where a triangle lacks a corner.
+pub(super) fn roots_of(primitive: &Primitive) -> Option<Vec<usize>> {
+    let mut roots: Vec<usize> = (0..primitive.positions.len()).collect();
+    for corners in primitive.indices.as_chunks::<3>().0 {
+        if corners.iter().any(|c| *c as usize >= roots.len()) {
+            return None;
+        }
+        for other in &corners[1..] {
+            let (a, b) = (root(&mut roots, corners[0] as usize), root(&mut roots, *other as usize));
+            roots[b] = a;
+        }
+    }
+    (0..roots.len()).for_each(|v| roots[v] = root(&mut roots, v));
+    Some(roots)
 }
 
 /// The vertex that stands for all that hang together with one.
@@ -215,7 +236,7 @@ fn root(roots: &mut [usize], mut of: usize) -> usize {
 }
 
 /// Pieces that belong to one eye: along the longest side of the whole, where two eyes lie side by side, there is a gap.
-fn eyes(pieces: Vec<Vec<Sample>>) -> Vec<Vec<Sample>> {
+pub(super) fn eyes(pieces: Vec<Vec<Sample>>) -> Vec<Vec<Sample>> {
     let boxes: Vec<(DVec3, DVec3)> = pieces.iter().map(|piece| bounds(piece)).collect();
     let (low, high) = boxes.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), b| (l.min(b.0), h.max(b.1)));
     let size = (high - low).to_array();

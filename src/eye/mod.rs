@@ -1,8 +1,19 @@
-//! Eyes: their measures, and where an eye is and looks, found from its mesh. Needs no GPU.
+//! Eyes: their measures, where an eye is and looks, found from its mesh, and how its pupil follows light. Needs no GPU.
 
 mod dimensions;
 mod frame;
+mod pupil;
+mod lids;
+mod painted;
+mod placed;
+mod plane;
 mod sphere;
 
 pub use dimensions::EyeDimensions;
 pub use frame::{EyeBone, EyeFrame, NoEyeFrame};
+pub use pupil::PupilReflex;
+pub use lids::Lids;
+pub use placed::{EyeRow, MOST_EYES};
+
+pub(crate) use painted::Painted;
+pub(crate) use placed::{EyeVertex, Eyes};

@@ -71,7 +71,7 @@ const WORDS: &[Words] = &[
     },
     Words {
         role: Role::Eye,
-        whole: &["eye", "eyes", "iris", "pupil", "pupils", "hitomi"],
+        whole: &["eye", "eyes", "iris", "cornea", "pupil", "pupils", "hitomi"],
         part: &["eyeiris", "eyeball", "瞳", "目", "眼"],
     },
     Words {

@@ -47,6 +47,8 @@ const MAX_BYTES: u64 = 1 << 20;
 /// side = 2048
 /// [eyes_through]
 /// opacity = 0.4
+/// [pupils]                            # follow light, and expressions
+/// expressions = { surprised = 0.7 }
 /// [post]
 /// tone = "filmic"                     # none, filmic or neutral
 /// bloom = { strength = 0.6, radius = 0.04 }
@@ -67,10 +69,10 @@ const MAX_BYTES: u64 = 1 << 20;
 /// ```
 ///
 /// Sections and keys are those of [`Material`](crate::material::Material), [`Bangs`](crate::scene::Bangs),
-/// [`SelfShadow`](crate::scene::SelfShadow), [`EyesThrough`](crate::scene::EyesThrough) and [`Post`](crate::scene::Post). What a file does not name stays
-/// as it is. Instead of `_rad` a key may end in `_deg`, instead of `_m` in `_cm` or `_mm`; a colour may be `"#rrggbb"` (sRGB)
-/// or linear numbers; a texture is a file beside the look file, and so is a [`ProfileFile`]. A name or key that does not exist
-/// is an error with the nearest one that does.
+/// [`SelfShadow`](crate::scene::SelfShadow), [`EyesThrough`](crate::scene::EyesThrough), [`Pupils`](crate::scene::Pupils) and
+/// [`Post`](crate::scene::Post). What a file does not name stays as it is. Instead of `_rad` a key may end in `_deg`, instead of
+/// `_m` in `_cm` or `_mm`; a colour may be `"#rrggbb"` (sRGB) or linear numbers; a texture is a file beside the look file, and
+/// so is a [`ProfileFile`]. A name or key that does not exist is an error with the nearest one that does.
 #[derive(Clone, Debug, Default)]
 pub struct LookFile {
     path: PathBuf,
@@ -86,6 +88,7 @@ struct Document {
     bangs: Option<Value>,
     self_shadow: Option<Value>,
     eyes_through: Option<Value>,
+    pupils: Option<Value>,
     post: Option<Value>,
     environment: Option<Value>,
     role: BTreeMap<Role, Table>,
@@ -207,6 +210,7 @@ impl LookFile {
         scene.bangs = self.section("bangs", self.document.bangs.as_ref(), scene.bangs)?;
         scene.self_shadow = self.section("self_shadow", self.document.self_shadow.as_ref(), scene.self_shadow)?;
         scene.eyes_through = self.section("eyes_through", self.document.eyes_through.as_ref(), scene.eyes_through)?;
+        self.pupils(scene)?;
         scene.post = self.section("post", self.document.post.as_ref(), scene.post)?;
         for (role, table) in &self.document.role {
             let name = format!("role.{}", role_name(*role));
@@ -239,6 +243,7 @@ impl LookFile {
             ("post", scene.post.and_then(table_of)),
             ("bangs", scene.bangs.and_then(table_of)),
             ("eyes_through", scene.eyes_through.and_then(table_of)),
+            ("pupils", scene.pupils.as_ref().and_then(table_of)),
         ];
         root.extend(sections.into_iter().filter_map(|(name, table)| Some((name.to_owned(), Value::Table(table?)))));
         let (mut roles, mut materials) = (Table::new(), Table::new());
@@ -304,6 +309,15 @@ impl LookFile {
         };
         scene.lights.get_or_insert_default().environment = environment;
         Ok(())
+    }
+
+    /// Pupils, whose expressions are those of the character.
+    fn pupils(&self, scene: &mut Scene) -> Result<()> {
+        scene.pupils = self.section("pupils", self.document.pupils.as_ref(), scene.pupils.take())?;
+        let character = scene.character.as_ref();
+        let Some(name) = scene.pupils.as_ref().and_then(|p| p.unknown(character)) else { return Ok(()) };
+        let names = character.iter().flat_map(|c| &c.expressions).map(|e| e.name.as_str());
+        Err(self.fault("pupils.expressions", no_such("expression", name, names)))
     }
 
     /// A section of the scene with what the file says over it.

@@ -4,6 +4,7 @@ mod anime;
 mod hair_band;
 mod look_file;
 mod natural;
+mod natural_eyes;
 mod presets;
 mod profile_file;
 mod values;

@@ -1,12 +1,12 @@
 //! The natural look: physical surfaces in a studio, hair as strands, no lines.
 
-use super::anime::materials_of;
+use super::{anime::materials_of, natural_eyes};
 use crate::color::LinearRgb;
 use crate::material::{
     Alpha, AlphaMode, Blending, CastShadow, FibreModel, Hair, Material, Origin, Rim, Shading, Skin, Standard, Strips,
     Substance,
 };
-use crate::scene::{DirectionalLight, Environment, Lights, Post, Role, Scene, SelfShadow, ToneCurve};
+use crate::scene::{DirectionalLight, Environment, Lights, Post, Pupils, Role, Scene, SelfShadow, ToneCurve};
 
 /// Strengths of the key light and of the studio: together they show white skin just below white.
 const KEY: f32 = 0.9;
@@ -28,6 +28,8 @@ pub(super) fn apply(scene: &mut Scene) {
             }
         }
     }
+    natural_eyes::apply(scene);
+    scene.pupils = Some(Pupils::default());
     scene.self_shadow = Some(SelfShadow { side: 2048, soft_width_m: 0.008, ..SelfShadow::default() });
     scene.lights = Some(Lights {
         directional: DirectionalLight { intensity: KEY, color: LinearRgb([1.0, 0.965, 0.92]), ..Default::default() },

@@ -46,6 +46,8 @@ pub(super) fn units(table: &mut Table, with_alpha: bool) -> Result<(), String> {
             continue;
         }
         match table.get_mut(&key) {
+            // Its keys are names.
+            Some(Value::Table(_)) if key == "expressions" => {}
             Some(Value::Table(inner)) => units(inner, key == "base")?,
             Some(Value::Array(list)) => {
                 for inner in list.iter_mut().filter_map(Value::as_table_mut) {

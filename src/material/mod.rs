@@ -31,6 +31,10 @@ use serde::{Deserialize, Serialize};
 
 // The one list. Its order is the order inside of a stage of shading, and that of the places in the uniform.
 sections! {
+    /// A drawn iris that has depth. Default: none.
+    eye_depth: Option<EyeDepth>,
+    /// Lights of a drawn eye that move. Default: none.
+    eye_card: Option<EyeCard>,
     /// Lit colour.
     base: Base,
     /// Tangent-space normal map. Default: none.
@@ -77,6 +81,8 @@ sections! {
     hair: Option<Hair>,
     /// Skin that scatters light. Default: none.
     skin: Option<Skin>,
+    /// An eye behind its cornea. Default: none.
+    eye: Option<Eye>,
     /// Painted highlight that moves. Default: none.
     highlight: Option<Highlight>,
     /// A picture of light looked up by the view-space normal. Default: none.

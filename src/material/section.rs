@@ -6,6 +6,7 @@ use std::fmt;
 use super::skin::SkinTable;
 use super::walk::ROOT;
 use super::{About, Material, Part, Walk};
+use crate::eye::EyeRow;
 use crate::motion::Driven;
 use crate::render::layout::Block;
 use crate::scene::Scene;
@@ -22,6 +23,8 @@ pub struct Surroundings<'a> {
     pub metres_per_uv: [f32; 2],
     /// Least texture coordinates on it, and how far the others go beyond them.
     pub uv_box: [[f32; 2]; 2],
+    /// The eyes of the scene, where the material shades some.
+    pub eyes: &'a [EyeRow],
     /// Its place among the materials of its scene whose light is spread over texture coordinates.
     pub skin_layer: u32,
     /// What expressions change: that must be there even where it is off at rest.
@@ -38,6 +41,7 @@ impl<'a> Surroundings<'a> {
             face_maps: &[],
             metres_per_uv: [1.0; 2],
             uv_box: [[0.0; 2], [1.0; 2]],
+            eyes: &[],
             skin_layer: 0,
             driven: Driven::NONE,
             self_shadow: false,
@@ -50,14 +54,16 @@ impl<'a> Surroundings<'a> {
         driven: &'a [Driven],
         metres_per_uv: &'a [[f32; 2]],
         uv_boxes: &'a [[[f32; 2]; 2]],
+        eyes: &'a [Vec<EyeRow>],
     ) -> impl Iterator<Item = Self> {
         let measured = metres_per_uv.iter().zip(uv_boxes);
         scene.materials.iter().zip(driven).zip(measured).enumerate().map(
-            |(i, ((material, driven), (metres, uv_box)))| Self {
+            move |(i, ((material, driven), (metres, uv_box)))| Self {
                 material,
                 face_maps: &scene.face_maps,
                 metres_per_uv: *metres,
                 uv_box: *uv_box,
+                eyes: eyes.get(i).map_or(&[], Vec::as_slice),
                 skin_layer: skin_layer(&scene.materials, i),
                 driven,
                 self_shadow: scene.self_shadow.is_some(),

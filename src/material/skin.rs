@@ -227,6 +227,18 @@ pub struct SkinTable {
 }
 
 impl SkinTable {
+    /// Of diffusion alone.
+    pub(crate) fn of_diffusion(profile: &DiffusionProfile) -> Self {
+        Self {
+            distances: profile.scattering_distance_mm.map(f32::to_bits),
+            ior: profile.ior.to_bits(),
+            specular: SkinSpecular::Ggx,
+            roughness: 0.5f32.to_bits(),
+            lobes: [1.0f32.to_bits(); 2],
+            lobe_mix: 0.5f32.to_bits(),
+        }
+    }
+
     /// Its numbers.
     pub(crate) fn numbers(self) -> (DiffusionProfile, Speculars) {
         let profile = DiffusionProfile {

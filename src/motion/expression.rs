@@ -14,7 +14,7 @@ impl Pose {
     /// Sets facial expressions; those not named are off. Weights are clamped to 0..1.
     ///
     /// Binary expressions round at 0.5, and expressions that block or blend blinking, gaze or the mouth do so, as VRM
-    /// 1.0 rules.
+    /// 1.0 rules. What they do to pupils ([`Pupils::expressions`](crate::scene::Pupils::expressions)) is multiplied.
     ///
     /// # Errors
     /// [`Error::Argument`] for a name that the character lacks; the message lists the known names.
@@ -62,6 +62,7 @@ impl Pose {
             (keep(|e| e.override_blink), keep(|e| e.override_look_at), keep(|e| e.override_mouth));
         self.morph_weights = scene.nodes.iter().map(|n| n.morph_weights.clone()).collect();
         self.shifts.clear();
+        self.pupil_scale = 1.0;
         for (expression, &weight) in expressions.iter().zip(&input) {
             let name = expression.name.as_str();
             let mut factor = 1.0;
@@ -78,6 +79,8 @@ impl Pose {
             };
             if weight > 0.0 {
                 self.add_expression(expression, weight);
+                let factor = scene.pupils.as_ref().and_then(|p| p.expressions.get(name)).unwrap_or(&1.0);
+                self.pupil_scale *= 1.0 + (factor - 1.0) * weight;
             }
         }
         Ok(())

@@ -9,7 +9,7 @@ use crate::{
 };
 
 /// State of a scene at one moment. Start from [`Pose::rest`].
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Pose {
     /// Transform of each node relative to its parent.
     pub locals: Vec<Transform>,
@@ -17,6 +17,15 @@ pub struct Pose {
     pub morph_weights: Vec<Vec<f32>>,
     /// What expressions shift of materials.
     pub shifts: Shifts,
+    /// What the diameter of pupils is multiplied by: expressions set it as [`Pupils`](crate::scene::Pupils) says, an application
+    /// may. Range 0... Default: 1.
+    pub pupil_scale: f32,
+}
+
+impl Default for Pose {
+    fn default() -> Self {
+        Self { locals: Vec::new(), morph_weights: Vec::new(), shifts: Shifts::default(), pupil_scale: 1.0 }
+    }
 }
 
 impl Pose {
@@ -26,7 +35,7 @@ impl Pose {
         Self {
             locals: scene.nodes.iter().map(|n| n.transform).collect(),
             morph_weights: scene.nodes.iter().map(|n| n.morph_weights.clone()).collect(),
-            shifts: Shifts::default(),
+            ..Self::default()
         }
     }
 
@@ -49,6 +58,9 @@ impl Pose {
                 let message = format!("has {count} nodes; the scene has {}", scene.nodes.len());
                 return fault(format!("pose.{name}"), message);
             }
+        }
+        if !(0.0..=f32::MAX).contains(&self.pupil_scale) {
+            return fault("pose.pupil_scale".to_owned(), format!("is {}; expected a number from 0", self.pupil_scale));
         }
         let name = |node: usize| &scene.nodes[node].name;
         let is_finite = |weights: &Vec<f32>| weights.iter().all(|w| w.is_finite());

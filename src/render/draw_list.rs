@@ -16,6 +16,7 @@ use super::shaders::{Recipe, Shaders};
 use super::variants::{Drawn, Request};
 use super::vertex::Instance;
 use super::{Output, uv_metric};
+use crate::eye::Eyes;
 use crate::material::{AlphaMode, Blending, Material, Surroundings};
 use crate::motion::Driven;
 use crate::scene::{Role, Scene};
@@ -201,16 +202,19 @@ pub(super) fn requests(
 
 /// What a material of a scene is drawn with, in every pass.
 pub(super) fn recipes_of(shaders: &Shaders, scene: &Scene, material: usize) -> Vec<Recipe> {
+    // What is wrong with them the upload says.
+    let eyes = Eyes::of(scene).unwrap_or_default();
     let compositions: Vec<Composition> = Surroundings::of_scene(
         scene,
         &Driven::of(scene),
         &uv_metric::metres_per_uv(scene),
         &uv_metric::uv_boxes(scene),
+        &eyes.rows,
     )
     .map(|of| Composition::new(shaders, &of))
     .collect();
     let picture = Picture { output: Output::default(), depth_format: DEPTH_STENCIL_FORMAT, sight: Sight::default() };
-    let draws = draws(scene, &Geometry::gather(scene).parts, true);
+    let draws = draws(scene, &Geometry::gather(scene, &eyes).parts, true);
     let all = requests(scene, &draws, &compositions, &picture);
     let of_material = draws.iter().zip(&all).filter(|(draw, _)| draw.material == material);
     of_material.flat_map(|(_, pipelines)| pipelines.iter().map(|r| r.recipe.clone())).collect()

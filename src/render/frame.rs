@@ -112,6 +112,7 @@ impl Frame {
         self.fit_environment(r, stage)?;
         // Maps are drawn from lights: of the frame they read the time alone.
         self.send_view(encoder, stage, &View::default(), None);
+        stage.bodies.adapt(&stage.lights, stage.time_s);
         let to_light = stage.lights.directional.to_light;
         stage.bodies.send(&gpu, &mut self.uploads, encoder, to_light, stage.ground.as_ref());
         // Where everybody was, for what moves in a window.

@@ -10,9 +10,10 @@ use super::{
     vertex::{DeformGroup, DeformVertex, MorphEntry, StaticVertex, pack_unit},
 };
 use crate::{
+    eye::{EyeVertex, Eyes},
     hair::{self, HairStrips, NoStrips},
     material::{AlphaMode, Blending, Material},
-    scene::{FirstPerson, HumanBone, Influences, MorphTarget, Primitive, Role, Scene, Skin},
+    scene::{FirstPerson, HumanBone, Influences, MorphTarget, Primitive, Role, Scene},
     skin,
 };
 
@@ -96,7 +97,7 @@ pub(crate) struct Geometry {
 }
 
 impl Geometry {
-    pub fn gather(scene: &Scene) -> Self {
+    pub fn gather(scene: &Scene, eyes: &Eyes) -> Self {
         let mut geometry = Self::default();
         let rest = scene.rest_world_from_nodes();
         let bone = |bone| scene.bone_node(bone).and_then(|n| Some((n, rest.get(n)?.inverse())));
@@ -113,7 +114,7 @@ impl Geometry {
             let node = &scene.nodes[node_index];
             let skin = node.skin.and_then(|s| scene.skins.get(s));
             let rest_matrix = match skin {
-                Some(skin) => skin_matrix(skin, &rest, 0),
+                Some(skin) => skin.matrix(&rest, 0),
                 None => rest[node_index],
             };
             let first_weight = geometry.weight_count as u32;
@@ -173,6 +174,7 @@ impl Geometry {
         let hiding: Vec<_> = hides.map(|part| at_rest(part.1, part.2, part.4)).collect();
         let scales = scene.materials.iter().filter_map(|m| Some(m.skin.as_ref()?.profile.world_scale));
         let mut skin = skin::measured(&skin, &hiding, scales.fold(f32::MAX, f32::min)).into_iter();
+        geometry.push_eyes(eyes, &parts);
         for (id, node, primitive, group, rest_matrix) in &parts {
             let sight = sight(scene, &in_head, *node);
             let material = scene.materials.get(primitive.material);
@@ -191,6 +193,7 @@ impl Geometry {
                 strands: strands.as_deref(),
                 strips: arranged.as_ref(),
                 skin: if is_skin(primitive) { skin.next() } else { None },
+                eyes: eyes.vertices.get(id).map(Vec::as_slice),
             };
             geometry.push(*id, primitive, &prepared, *group, *rest_matrix, &sight);
             materials_by_id[*id as usize] = primitive.material;
@@ -205,6 +208,35 @@ impl Geometry {
         geometry
     }
 
+    /// A vertex for each eye, before all others, which nobody draws: its normal is the gaze in every pose, its tangent points to
+    /// the right as the eye is seen.
+    fn push_eyes(&mut self, eyes: &Eyes, parts: &[(u32, usize, &Primitive, DeformGroup, Mat4)]) {
+        for eye in &eyes.list {
+            let Some((.., group, rest)) = parts.iter().find(|part| part.0 == eye.part) else { continue };
+            let group_index = self.groups.len() as u32;
+            self.groups.push(DeformGroup {
+                first_vertex: self.source.len() as u32,
+                first_influence: self.influences.len() as u32,
+                influences_per_vertex: group.influences_per_vertex.min(1),
+                ..*group
+            });
+            if group.influences_per_vertex > 0 {
+                self.influences.push(u32::from(eye.joint) | 0xffff << 16);
+            }
+            // The other way round than the shader: normals by the transposed matrix, points by the inverse.
+            let back = rest.inverse();
+            let right = back.transform_vector3(eye.up.cross(eye.axis));
+            self.source.push(DeformVertex {
+                position: back.transform_point3(eye.centre).to_array(),
+                normal: pack_unit(rest.transpose().transform_vector3(eye.axis).to_array()),
+                tangent: pack_unit(right.to_array()) & !1,
+                outline_normal: pack_unit([0.0, 0.0, 1.0]),
+            });
+            self.static_vertices.push(StaticVertex::default());
+            self.vertex_refs.push([group_index, self.morphs.len() as u32]);
+        }
+    }
+
     fn push(
         &mut self,
         id: u32,
@@ -214,7 +246,7 @@ impl Geometry {
         rest: Mat4,
         sight: &Sight,
     ) {
-        let Prepared { strands, strips, skin } = prepared;
+        let Prepared { strands, strips, skin, eyes } = prepared;
         let tangents = strands.unwrap_or(&primitive.tangents);
         let first = self.source.len() as u32;
         group.first_vertex = first;
@@ -240,8 +272,9 @@ impl Geometry {
             let color = primitive.colors.get(v).map_or(bare, |c| c.map(|x| (x.clamp(0.0, 1.0) * 255.0).round() as u8));
             let part = id | strips.map_or(0, |s| s.numbers[v] << 16);
             let [k, t, o] = skin.as_ref().and_then(|s| s.get(v)).copied().unwrap_or_default();
-            let skin = [k, t, o, 0.0].map(|x| half::f16::from_f32(x).to_bits());
-            self.static_vertices.push(StaticVertex { uv: [u0, v0, u1, v1], color, part, skin });
+            let of_skin = [k, t, o, 0.0].map(|x| half::f16::from_f32(x).to_bits());
+            let shape = eyes.and_then(|e| e.get(v)).map_or(of_skin, |of_eye| of_eye.map(|x| x as u16));
+            self.static_vertices.push(StaticVertex { uv: [u0, v0, u1, v1], color, part, shape });
             self.vertex_refs.push([group_index, self.morphs.len() as u32]);
             morphs.take(v as u32, &mut self.morphs);
             let world = rest.transform_point3(Vec3::from(position));
@@ -314,6 +347,8 @@ struct Prepared<'a> {
     strips: Option<&'a Arranged>,
     /// Curvature, thickness and occlusion.
     skin: Option<Vec<[f32; 3]>>,
+    /// Places in eyes.
+    eyes: Option<&'a [EyeVertex]>,
 }
 
 /// Nodes that are the head or hang on it; empty without a character.
@@ -472,9 +507,4 @@ fn pack_influences(influences: &Influences, out: &mut Vec<u32>) {
         }
         out.extend(joints.iter().zip(&codes).map(|(joint, code)| u32::from(*joint) | (*code as u32) << 16));
     }
-}
-
-fn skin_matrix(skin: &Skin, rest: &[Mat4], joint: usize) -> Mat4 {
-    let node = skin.joints.get(joint).and_then(|n| rest.get(*n)).copied().unwrap_or(Mat4::IDENTITY);
-    node * skin.joint_from_mesh.get(joint).copied().unwrap_or(Mat4::IDENTITY)
 }

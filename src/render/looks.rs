@@ -9,6 +9,7 @@ use super::shaders::{BindingKind, Places, Shaders};
 use super::textures::TextureSet;
 use super::uploads::Uploads;
 use super::variants::{Bound, BoundLayout};
+use crate::eye::EyeRow;
 use crate::material::{Material, Surroundings, skin_layer};
 use crate::motion::{Driven, Shifts};
 use crate::scene::Scene;
@@ -38,6 +39,7 @@ pub(crate) struct Looks {
     pub(super) face_maps: Vec<FaceMap>,
     pub(super) metres_per_uv: Vec<[f32; 2]>,
     pub(super) uv_boxes: Vec<[[f32; 2]; 2]>,
+    pub(super) eyes: Vec<Vec<EyeRow>>,
     pub(super) driven: Vec<Driven>,
     pub(super) self_shadow: bool,
 }
@@ -92,6 +94,7 @@ impl Looks {
             face_maps: &self.face_maps,
             metres_per_uv: self.metres_per_uv.get(index).copied().unwrap_or([1.0; 2]),
             uv_box: self.uv_boxes.get(index).copied().unwrap_or([[0.0; 2], [1.0; 2]]),
+            eyes: self.eyes.get(index).map_or(&[], Vec::as_slice),
             skin_layer: skin_layer(&self.sources, index),
             driven: self.driven.get(index).unwrap_or(Driven::NONE),
             self_shadow: self.self_shadow,

@@ -211,6 +211,12 @@ impl Composition {
 
     /// Refuses what a device with WebGPU's default limits cannot bind.
     pub fn check(&self, name: &str) -> Result<()> {
+        // They share places of what goes from vertex to fragment.
+        let apart = ["skin", "face_shadow", "face_paint"];
+        if let (true, Some(other)) = (self.needs("eye_vertex"), apart.into_iter().find(|key| self.has(key))) {
+            let message = format!("has {other} beside an eye or iris; please give the eyes a material of their own");
+            return Err(Error::Argument { what: format!("material {name:?}"), message });
+        }
         let count = self.slots().count();
         if count <= MAX_TEXTURES {
             return Ok(());

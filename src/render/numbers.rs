@@ -79,12 +79,8 @@ fn nearest_weighed(view_from_world: Mat4, stage: &Stage) -> f32 {
 
 /// A `PunctualLight`: three rows of a vector and a number.
 fn punctual(light: &PunctualLight) -> [[f32; 4]; 3] {
-    let (direction, spot_scale, spot_offset) = light.spot.map_or((Vec3::Z, 0.0, 1.0), |spot| {
-        // KHR_lights_punctual, "Inner and Outer Cone Angles".
-        let outer_cos = spot.outer_rad.cos();
-        let scale = 1.0 / (spot.inner_rad.cos() - outer_cos).max(1e-3);
-        (spot.direction, scale, -outer_cos * scale)
-    });
+    let (direction, [spot_scale, spot_offset]) =
+        light.spot.map_or((Vec3::Z, [0.0, 1.0]), |spot| (spot.direction, spot.scale_and_offset()));
     let color = Vec3::from(light.color.scaled(light.intensity).0);
     [light.position.extend(light.range), color.extend(spot_scale), direction.extend(spot_offset)].map(|r| r.to_array())
 }
@@ -108,6 +104,11 @@ pub(crate) struct ActorState<'a> {
     pub key_light: f32,
     /// First layer of the light on its skin.
     pub skin_layer: Option<u32>,
+    /// Diameter of its pupils by the light, mm; and share of it, 0 where they do not follow.
+    pub pupil_mm: f32,
+    pub pupil_reflex: f32,
+    /// What their diameter is multiplied by.
+    pub pupil_scale: f32,
 }
 
 impl ActorState<'_> {
@@ -125,6 +126,9 @@ impl ActorState<'_> {
             shadow,
             key_light: 1.0,
             skin_layer: None,
+            pupil_mm: 0.0,
+            pupil_reflex: 0.0,
+            pupil_scale: 1.0,
         }
     }
 }
@@ -169,6 +173,9 @@ pub(crate) fn put_actor(gpu: &mut Block<'_>, of: &ActorState<'_>) {
     gpu.put("key_light", of.key_light);
     gpu.put("skin_layer", of.skin_layer.map_or(-1.0, |layer| layer as f32));
     gpu.put("shadow_layer", shadow.layer.map_or(-1.0, |layer| layer as f32));
+    gpu.put("pupil_mm", of.pupil_mm);
+    gpu.put("pupil_scale", of.pupil_scale);
+    gpu.put("pupil_reflex", of.pupil_reflex);
 }
 
 /// Writes the numbers of a finished picture.

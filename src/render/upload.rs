@@ -16,6 +16,7 @@ use super::pass::{Picture, Sight};
 use super::skin_layers::SkinPart;
 use super::textures::{self, TextureSet};
 use super::{Renderer, bind, uv_metric};
+use crate::eye::Eyes;
 use crate::hair::holds_flow;
 use crate::material::{Encoding, Generated, MAX_SHELLS, Material, Surroundings, out_of_range};
 use crate::motion::Driven;
@@ -70,6 +71,7 @@ impl Renderer {
             ("bangs", scene.bangs.and_then(|mut s| out_of_range(&mut s))),
             ("self_shadow", scene.self_shadow.and_then(|mut s| out_of_range(&mut s))),
             ("eyes_through", scene.eyes_through.and_then(|mut s| out_of_range(&mut s))),
+            ("pupils", scene.pupils.clone().and_then(|mut s| out_of_range(&mut s))),
             ("post", scene.post.and_then(|mut s| out_of_range(&mut s))),
         ];
         for (section, fault) in faults {
@@ -105,19 +107,23 @@ impl Renderer {
                 return Err(Error::Argument { what, message: message.to_owned() });
             }
         }
+        let eyes = Eyes::of(scene).map_err(|(material, key, message)| Error::Argument {
+            what: format!("material {material} {:?}, {key}", sources[material].name),
+            message,
+        })?;
         let driven = Driven::of(scene);
         let mut compositions = Vec::with_capacity(sources.len());
-        for of in Surroundings::of_scene(scene, &driven, &metres_per_uv, &uv_boxes) {
+        for of in Surroundings::of_scene(scene, &driven, &metres_per_uv, &uv_boxes, &eyes.rows) {
             self.variants.shaders.check(of.material)?;
             let composition = Composition::new(&self.variants.shaders, &of);
             composition.check(&of.material.name)?;
             compositions.push(composition);
         }
-        Ok(Described { sources, compositions, metres_per_uv, uv_boxes, driven })
+        Ok(Described { sources, compositions, metres_per_uv, uv_boxes, eyes, driven })
     }
 
     fn upload_with(&self, scene: &Scene, described: Described, textures: &TextureSet) -> Result<Character> {
-        let geometry = Geometry::gather(scene);
+        let geometry = Geometry::gather(scene, &described.eyes);
         if let Some((material, fault)) = geometry.faults.first() {
             let what = format!("material {material} {:?}, hair.direction", scene.materials[*material].name);
             let message = format!("is mesh, but a part of it {fault}; please choose uv-v, uv-u or a flow map");
@@ -126,7 +132,7 @@ impl Renderer {
         let gpu = self.gpu().clone();
         let buffer = |label, contents: &[u8], usage| bind::filled(&gpu, label, contents, usage);
         use wgpu::BufferUsages as U;
-        let Described { sources, compositions, metres_per_uv, uv_boxes, driven } = described;
+        let Described { sources, compositions, metres_per_uv, uv_boxes, eyes, driven } = described;
         let places = Arc::clone(&self.variants.shaders.places);
         let stride = stride(&places);
         let bound = compositions.iter().map(|c| bound_textures(scene, c, textures)).collect();
@@ -146,6 +152,7 @@ impl Renderer {
             face_maps: scene.face_maps.iter().map(FaceMap::without_texels).collect(),
             metres_per_uv,
             uv_boxes,
+            eyes: eyes.rows,
             driven,
             self_shadow: scene.self_shadow.is_some(),
         };
@@ -376,6 +383,7 @@ fn measured(scene: &Scene) -> Scene {
         bangs: scene.bangs,
         self_shadow: scene.self_shadow,
         eyes_through: scene.eyes_through,
+        pupils: scene.pupils.clone(),
         post: scene.post,
         warnings: scene.warnings.clone(),
     }
@@ -387,6 +395,7 @@ struct Described {
     compositions: Vec<Composition>,
     metres_per_uv: Vec<[f32; 2]>,
     uv_boxes: Vec<[[f32; 2]; 2]>,
+    eyes: Eyes,
     driven: Vec<Driven>,
 }
 

@@ -1,6 +1,7 @@
 //! Pipelines: one maker for every pass, keyed by what the shader is linked from and by fixed state, on all cores.
 
 use std::collections::HashMap;
+use std::mem::offset_of;
 use std::sync::{Arc, Mutex, OnceLock};
 
 use rayon::prelude::*;
@@ -214,13 +215,24 @@ fn layout_entry(binding: &Binding) -> wgpu::BindGroupLayoutEntry {
     }
 }
 
+const fn attribute(shader_location: u32, format: wgpu::VertexFormat, offset: usize) -> wgpu::VertexAttribute {
+    wgpu::VertexAttribute { format, offset: offset as u64, shader_location }
+}
+
 /// Vertex streams, as `wgsl/bind/vertex.wgsl` reads them: what does not move, and what an instance stands for. Deformed
 /// vertices are pulled from storage, so that one draw serves actors in poses of their own.
 const VERTEX_BUFFERS: [Option<wgpu::VertexBufferLayout<'static>>; 2] = [
     Some(wgpu::VertexBufferLayout {
         array_stride: size_of::<StaticVertex>() as u64,
         step_mode: wgpu::VertexStepMode::Vertex,
-        attributes: &wgpu::vertex_attr_array![0 => Float32x4, 1 => Unorm8x4, 2 => Uint32, 7 => Float16x4],
+        attributes: &[
+            attribute(0, wgpu::VertexFormat::Float32x4, offset_of!(StaticVertex, uv)),
+            attribute(1, wgpu::VertexFormat::Unorm8x4, offset_of!(StaticVertex, color)),
+            attribute(2, wgpu::VertexFormat::Uint32, offset_of!(StaticVertex, part)),
+            // The same bytes as skin and as an eye has them.
+            attribute(7, wgpu::VertexFormat::Float16x4, offset_of!(StaticVertex, shape)),
+            attribute(8, wgpu::VertexFormat::Uint32x2, offset_of!(StaticVertex, shape)),
+        ],
     }),
     Some(wgpu::VertexBufferLayout {
         array_stride: size_of::<Instance>() as u64,

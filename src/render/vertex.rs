@@ -71,8 +71,9 @@ pub struct StaticVertex {
     pub uv: [f32; 4],
     pub color: [u8; 4],
     pub part: u32,
-    /// Of skin: curvature, 1/m, thickness, m, and occlusion, 0 to 1, as half floats, character space; the last is 0.
-    pub skin: [u16; 4],
+    /// Of skin: curvature, 1/m, thickness, m, and occlusion, 0 to 1, as half floats, character space; the last is 0. Of an eye: its
+    /// place there over 2 as snorm16, and the vertex that is the eye.
+    pub shape: [u16; 4],
 }
 
 /// Second stream of every draw: what an instance stands for, as `wgsl/bind/vertex.wgsl` reads it.

@@ -51,6 +51,9 @@ impl Scene {
         for (bone, node) in self.character.iter().flat_map(|c| &c.bones) {
             index(format!("character.bones[{}]", bone.name()), Some(*node), self.nodes.len())?;
         }
+        if let Some(name) = self.pupils.as_ref().and_then(|p| p.unknown(self.character.as_ref())) {
+            return fault(format!("pupils.expressions[{name:?}]"), "is no expression of the character".to_owned());
+        }
         Ok(())
     }
 }

@@ -4,7 +4,7 @@ use std::f32::consts::{PI, TAU};
 use std::fmt;
 use std::sync::{Arc, OnceLock};
 
-use glam::Vec3;
+use glam::{Quat, Vec3};
 use rayon::prelude::*;
 
 use crate::{Error, Result};
@@ -56,6 +56,11 @@ impl Environment {
         let [width, height] = [64, 32];
         let texels = vec![color; (width * height) as usize];
         Self::new(Radiance { width, height, texels, irradiance: OnceLock::new() })
+    }
+
+    /// Irradiance over pi on a surface that faces `n`, a direction of the world: what a white one shows.
+    pub(crate) fn irradiance(&self, n: Vec3) -> Vec3 {
+        self.radiance.irradiance_on(Quat::from_rotation_y(-self.turn_rad) * n).max(Vec3::ZERO) * self.strength
     }
 
     /// Refuses numbers that are none.
@@ -177,6 +182,11 @@ impl Radiance {
             std::array::from_fn(|i| sums[i].map(|x| (x * fill) as f32 * scale[i]))
         })
     }
+
+    /// The same on a surface that faces `n`.
+    fn irradiance_on(&self, n: Vec3) -> Vec3 {
+        harmonics(n).into_iter().zip(self.irradiance()).map(|(basis, c)| Vec3::from(*c) * basis).sum()
+    }
 }
 
 /// Normalisation of the harmonics.
@@ -243,15 +253,11 @@ fn sky(d: Vec3) -> Vec3 {
 mod tests {
     use super::*;
 
-    fn irradiance(of: &Radiance, n: Vec3) -> Vec3 {
-        harmonics(n).into_iter().zip(of.irradiance()).map(|(basis, c)| Vec3::from(*c) * basis).sum()
-    }
-
     #[test]
     fn light_from_everywhere_is_the_same_on_every_side() {
         for of in [&*Environment::uniform([0.7, 0.2, 0.1]).radiance, &Radiance::made(|_| Vec3::new(0.7, 0.2, 0.1))] {
             for n in [Vec3::X, Vec3::NEG_Y, Vec3::new(0.6, -0.48, 0.64)] {
-                let found = irradiance(of, n);
+                let found = of.irradiance_on(n);
                 assert!(found.abs_diff_eq(Vec3::new(0.7, 0.2, 0.1), 2e-3), "{n}: {found}");
             }
         }
@@ -262,7 +268,7 @@ mod tests {
         let half = Radiance::made(|d| Vec3::splat(f32::from(u8::from(d.x > 0.0))));
         for n in [Vec3::X, Vec3::Y, Vec3::NEG_X, Vec3::new(0.5, 0.5, -0.5f32.sqrt())] {
             // Three bands leave out what a step has beyond them.
-            assert!((irradiance(&half, n).x - (0.5 + 0.5 * n.x)).abs() < 0.01, "{n}");
+            assert!((half.irradiance_on(n).x - (0.5 + 0.5 * n.x)).abs() < 0.01, "{n}");
         }
     }
 

@@ -49,6 +49,21 @@ impl Lights {
         Ambient { sky, ground }
     }
 
+    /// Luminance of a white surface at a place of the world that faces `n`, unit, where this share of the key light arrives.
+    pub(crate) fn luminance(&self, position: Vec3, n: Vec3, key_light: f32) -> f32 {
+        let DirectionalLight { to_light, color, intensity } = self.directional;
+        let key = color.luminance() * intensity * key_light * to_light.normalize_or(Vec3::Z).dot(n).max(0.0);
+        let around = match &self.environment {
+            Some(environment) => LinearRgb(environment.irradiance(n).to_array()).luminance(),
+            None => 0.5 * (self.ambient.sky.luminance() + self.ambient.ground.luminance()),
+        };
+        let lamp = |light: &PunctualLight| {
+            let (to_light, share) = light.arriving(position);
+            light.color.luminance() * light.intensity * share * to_light.dot(n).max(0.0)
+        };
+        key + around + self.punctual.iter().take(MAX_PUNCTUAL_LIGHTS).map(lamp).sum::<f32>()
+    }
+
     /// Refuses lights that have no direction, or numbers that are none.
     pub(crate) fn check(&self) -> Result<()> {
         let fault = |what: String, message: &str| Err(Error::Argument { what, message: message.to_owned() });
@@ -138,6 +153,27 @@ pub struct PunctualLight {
     pub spot: Option<SpotCone>,
 }
 
+impl PunctualLight {
+    /// Direction to it from a place of the world, unit, and the share of its light that arrives there, as
+    /// `wgsl/lib/light.wgsl` has it.
+    fn arriving(&self, position: Vec3) -> (Vec3, f32) {
+        let to_light = self.position - position;
+        let distance_sq = to_light.length_squared();
+        let to_light = to_light * distance_sq.max(1e-8).sqrt().recip();
+        let ratio_sq = distance_sq / (self.range * self.range);
+        let window = if self.range > 0.0 {
+            (1.0 - ratio_sq * ratio_sq).max(0.0)
+        } else {
+            1.0
+        };
+        let cone = self.spot.map_or(1.0, |spot| {
+            let [scale, offset] = spot.scale_and_offset();
+            (-to_light.dot(spot.direction) * scale + offset).clamp(0.0, 1.0)
+        });
+        (to_light, window / distance_sq.max(1e-4) * cone * cone)
+    }
+}
+
 /// Cone of a spot light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpotCone {
@@ -147,4 +183,90 @@ pub struct SpotCone {
     pub inner_rad: f32,
     /// Half-angle at which it ends, radians. Range `inner_rad`..π/2.
     pub outer_rad: f32,
+}
+
+impl SpotCone {
+    /// What the cosine of an angle is multiplied by, and what is added, for the root of the light's share there
+    /// (`KHR_lights_punctual`, "Inner and Outer Cone Angles").
+    pub(crate) fn scale_and_offset(&self) -> [f32; 2] {
+        let outer_cos = self.outer_rad.cos();
+        let scale = 1.0 / (self.inner_rad.cos() - outer_cos).max(1e-3);
+        [scale, -outer_cos * scale]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f32::consts::FRAC_PI_2;
+
+    use super::*;
+    use crate::scene::Radiance;
+
+    fn near(found: f32, expected: f32) {
+        assert!((found - expected).abs() < 1e-4, "{found} {expected}");
+    }
+
+    /// No light but these lamps.
+    fn dark(punctual: Vec<PunctualLight>) -> Lights {
+        let directional = DirectionalLight { intensity: 0.0, ..DirectionalLight::default() };
+        Lights { directional, ambient: Ambient::uniform(LinearRgb::BLACK), punctual, ..Lights::default() }
+    }
+
+    #[test]
+    fn a_face_is_lit_by_the_key_light_and_from_around() {
+        let lights = Lights {
+            directional: DirectionalLight {
+                to_light: Vec3::new(0.0, 3.0, 4.0),
+                color: LinearRgb([1.0, 0.5, 0.0]),
+                intensity: 2.0,
+            },
+            ambient: Ambient { sky: LinearRgb::splat(0.3), ground: LinearRgb::splat(0.1) },
+            ..Lights::default()
+        };
+        let color = 0.2126 + 0.5 * 0.7152;
+        near(lights.luminance(Vec3::ZERO, Vec3::Z, 1.0), 2.0 * color * 0.8 + 0.2);
+        near(lights.luminance(Vec3::ZERO, Vec3::Z, 0.25), 0.5 * color * 0.8 + 0.2);
+        near(lights.luminance(Vec3::ZERO, Vec3::NEG_Z, 1.0), 0.2);
+        // A picture of the light stands in the place of sky and ground, and turns.
+        let uniform = Lights { environment: Some(Environment::uniform([0.4; 3])), ..lights };
+        let found = uniform.luminance(Vec3::ZERO, Vec3::NEG_Z, 1.0);
+        assert!((found - 0.4).abs() < 2e-3, "{found}");
+        // From the left, and a quarter of a turn on from behind.
+        let left = (0..64 * 32).map(|i| [f32::from(u8::from(i % 64 >= 32)); 3]).collect();
+        let left = Environment::new(Radiance::new(64, 32, left).expect("a picture"));
+        for (turn_rad, from) in [(0.0, Vec3::X), (FRAC_PI_2, Vec3::NEG_Z)] {
+            let environment = Some(Environment { turn_rad, strength: 2.0, ..left.clone() });
+            let lights = Lights { environment, ..dark(Vec::new()) };
+            for (n, expected) in [(from, 2.0), (-from, 0.0), (Vec3::Y, 1.0)] {
+                let found = lights.luminance(Vec3::ZERO, n, 1.0);
+                assert!((found - expected).abs() < 0.02, "{from} on {n}: {found}");
+            }
+        }
+    }
+
+    #[test]
+    fn lamps_fade_with_distance_and_beside_their_cone() {
+        let point = PunctualLight {
+            position: Vec3::new(0.0, 1.0, 2.0),
+            color: LinearRgb::WHITE,
+            intensity: 4.0,
+            range: 0.0,
+            spot: None,
+        };
+        let of = |light| dark(vec![light]).luminance(Vec3::Y, Vec3::Z, 1.0);
+        near(of(point), 1.0);
+        near(of(PunctualLight { range: 4.0, ..point }), 1.0 - 1.0 / 16.0);
+        near(of(PunctualLight { range: 1.0, ..point }), 0.0);
+        near(of(PunctualLight { position: Vec3::new(0.0, 1.0, -2.0), ..point }), 0.0);
+        let spot = |angle: f32| {
+            let direction = Vec3::new(angle.sin(), 0.0, -angle.cos());
+            of(PunctualLight { spot: Some(SpotCone { direction, inner_rad: 0.2, outer_rad: 0.6 }), ..point })
+        };
+        near(spot(0.1), 1.0);
+        near(spot(0.7), 0.0);
+        let (at, outer) = (0.4f32.cos(), 0.6f32.cos());
+        near(spot(0.4), ((at - outer) / (0.2f32.cos() - outer)).powi(2));
+        // In the lamp itself the light is strong and a number.
+        assert!(of(PunctualLight { position: Vec3::Y, ..point }).is_finite());
+    }
 }

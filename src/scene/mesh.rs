@@ -83,3 +83,11 @@ pub struct Skin {
     /// Matrices `joint_from_mesh` at bind time, one for each joint.
     pub joint_from_mesh: Vec<Mat4>,
 }
+
+impl Skin {
+    /// What a joint moves by, for nodes at these places.
+    pub(crate) fn matrix(&self, world_from_nodes: &[Mat4], joint: usize) -> Mat4 {
+        let node = self.joints.get(joint).and_then(|n| world_from_nodes.get(*n)).copied().unwrap_or(Mat4::IDENTITY);
+        node * self.joint_from_mesh.get(joint).copied().unwrap_or(Mat4::IDENTITY)
+    }
+}

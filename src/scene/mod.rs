@@ -13,6 +13,7 @@ mod head;
 mod light;
 mod mesh;
 mod post;
+mod pupils;
 mod role;
 mod self_shadow;
 mod texture;
@@ -27,6 +28,7 @@ pub use eyes_through::EyesThrough;
 pub use light::{Ambient, DirectionalLight, Lights, MAX_PUNCTUAL_LIGHTS, PunctualLight, SpotCone};
 pub use mesh::{Influences, Mesh, MorphTarget, Primitive, Skin};
 pub use post::{Antialias, Bloom, Post, ToneCurve};
+pub use pupils::Pupils;
 pub use role::Role;
 pub use self_shadow::{MOST_SHADOWED, SelfShadow};
 pub use texture::{Filter, Image, Sampler, Texture, Wrap};
@@ -67,6 +69,8 @@ pub struct Scene {
     pub self_shadow: Option<SelfShadow>,
     /// Eyes and brows through hair. `None`: hair hides them.
     pub eyes_through: Option<EyesThrough>,
+    /// Pupils that follow light and expressions. `None`: they are as wide as materials say.
+    pub pupils: Option<Pupils>,
     /// What is done to the whole picture. `None`: nothing is.
     pub post: Option<Post>,
     /// What will look or work other than the author meant.

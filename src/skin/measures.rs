@@ -48,8 +48,8 @@ impl Part<'_> {
         self.primitive.morphs.iter().zip(weights).filter(|(_, weight)| *weight != 0.0)
     }
 
-    /// In character space.
-    fn positions(&self) -> Vec<Vec3> {
+    /// Its vertices with those, in character space.
+    pub(crate) fn positions(&self) -> Vec<Vec3> {
         let mut all: Vec<Vec3> = self.primitive.positions.iter().copied().map(Vec3::from).collect();
         for (morph, weight) in self.morphs() {
             for (vertex, by) in morph.vertices.iter().zip(&morph.positions) {

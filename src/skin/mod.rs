@@ -24,3 +24,4 @@ pub(crate) use measures::{Part, measured};
 pub(crate) use seams::Seams;
 pub(crate) use specular::Speculars;
 pub(crate) use tables::{TABLE_SIZE, skin_table};
+pub(crate) use tree::Tree;

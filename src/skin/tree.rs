@@ -6,7 +6,7 @@ use glam::Vec3;
 const LEAF: usize = 4;
 
 /// Triangles in a tree of boxes, each node cut at the median of its centres.
-pub(super) struct Tree {
+pub(crate) struct Tree {
     /// A node's first child stands right behind it.
     nodes: Vec<TreeNode>,
     triangles: Vec<Triangle>,
@@ -57,7 +57,7 @@ impl Triangle {
 
 impl Tree {
     /// Triangles without area or not finite are left out.
-    pub(super) fn new(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Self {
+    pub(crate) fn new(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Self {
         let triangle = |corners: &[u32; 3]| {
             let [a, b, c] = corners.map(|c| positions.get(c as usize).copied().map(Vec3::from_array));
             let (a, b, c) = (a?, b?, c?);
@@ -73,7 +73,7 @@ impl Tree {
     }
 
     /// Length of the ray to the first triangle that is nearer than `most`.
-    pub(super) fn first_hit(&self, at: Vec3, direction: Vec3, most: f32) -> Option<f32> {
+    pub(crate) fn first_hit(&self, at: Vec3, direction: Vec3, most: f32) -> Option<f32> {
         // No component is 0, so that none of the box test's numbers is NaN.
         let inverse = direction.to_array().map(|v| 1.0 / if v.abs() < 1e-12 { 1e-12 } else { v });
         let inverse = Vec3::from_array(inverse);

@@ -20,6 +20,7 @@ use crate::render::pass::shadow::{ShadowMap, ShadowRows};
 use crate::render::skin_layers::{MOST_LAYERS, SkinLayers};
 use crate::render::uploads::Uploads;
 use crate::render::vertex::Instance;
+use crate::scene::Lights;
 use crate::{Error, Gpu, Result};
 
 /// Bodies of all actors, in their order.
@@ -292,6 +293,11 @@ impl Bodies {
             world_map.rows = world_rows(list, volumes, shadow.side(), to_light);
             world_map.rows.layer = Some(layer);
         }
+    }
+
+    /// Moves pupils towards what the light asks of them.
+    pub fn adapt(&mut self, lights: &Lights, time_s: f32) {
+        self.list.iter_mut().for_each(|body| body.adapt(lights, time_s));
     }
 
     /// Sends what has changed: poses, materials, and what depends on places and light.

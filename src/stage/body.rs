@@ -6,6 +6,7 @@ use super::Actor;
 use super::maps::MapsKey;
 use super::troupe::Troupe;
 use super::volume::{Sphere, Volume};
+use crate::eye::PupilReflex;
 use crate::render::looks::Edits;
 use crate::render::made::Made;
 use crate::render::numbers::ActorState;
@@ -14,6 +15,7 @@ use crate::render::shaders::Shaders;
 use crate::render::skin_layers::SkinPart;
 use crate::render::vertex::AffineRows;
 use crate::render::{Character, CharacterData};
+use crate::scene::Lights;
 use crate::{Error, Result};
 
 /// The body of one actor.
@@ -45,6 +47,9 @@ pub(crate) struct Body {
     /// Moves the head from its rest to the pose, and the hips.
     pub(super) head: Mat4,
     pub(super) hips: Mat4,
+    pub(super) pupils: PupilReflex,
+    /// What the diameter of its pupils is multiplied by.
+    pub(super) pupil_scale: f32,
     pub(super) edits: Edits,
     /// How often the pose, and what is cut out of materials, have become others; no pose has been taken at first.
     pub(super) revisions: [u64; 2],
@@ -98,6 +103,8 @@ impl Body {
             skin_layer: None,
             head: Mat4::IDENTITY,
             hips: Mat4::IDENTITY,
+            pupils: PupilReflex::default(),
+            pupil_scale: 1.0,
             edits: Edits::default(),
             revisions: [0; 2],
             maps: Made::not_yet(()),
@@ -162,6 +169,7 @@ impl Body {
         }
         self.world = actor.world;
         self.key_light = actor.key_light;
+        self.pupil_scale = pose.pupil_scale;
         let matrix = |node: usize| self.nodes.get(node).copied().unwrap_or(Mat4::IDENTITY);
         let moved = |bone: Option<(usize, Mat4)>| bone.map_or(Mat4::IDENTITY, |(node, inverse)| matrix(node) * inverse);
         (self.head, self.hips) = (moved(rig.head), moved(rig.hips));
@@ -196,6 +204,16 @@ impl Body {
             self.revisions[1] += 1;
         }
         Ok(())
+    }
+
+    /// Moves its pupils towards what the light on its face asks of them.
+    pub(super) fn adapt(&mut self, lights: &Lights, time_s: f32) {
+        let CharacterData { scene, rig, .. } = &*self.character.0;
+        let Some(pupils) = &scene.pupils else { return };
+        let face = self.world * self.head;
+        let forward = face.transform_vector3(Vec3::Z).normalize_or(Vec3::Z);
+        let light = lights.luminance(face.transform_point3(rig.head_middle), forward, self.key_light);
+        self.pupils.follow(pupils, time_s, light * pupils.luminance);
     }
 
     /// Spheres round its eyes and its hair in the world, where the ones are seen through the other.
@@ -253,6 +271,9 @@ impl Body {
             shadow: self.shadow_layer.and_then(own).unwrap_or(of_world),
             key_light: self.key_light,
             skin_layer: self.skin_layer,
+            pupil_mm: self.pupils.diameter_mm().unwrap_or(0.0),
+            pupil_reflex: data.scene.pupils.as_ref().map_or(0.0, |pupils| pupils.reflex),
+            pupil_scale: self.pupil_scale,
         }
     }
 }

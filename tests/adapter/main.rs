@@ -3,12 +3,18 @@
 #[path = "../support/scene.rs"]
 mod support;
 
+#[path = "../support/eye.rs"]
+mod eyeballs;
+
 mod adapters;
 mod bangs_shadow;
 mod body_looks;
 mod channels;
 mod depth_rim;
+mod eye;
+mod eye_drawn;
 mod eye_layers;
+mod eye_surface;
 mod eyes_through;
 mod face_shadow;
 mod faults;
@@ -21,6 +27,7 @@ mod limits;
 mod natural;
 mod oracles;
 mod own_look;
+mod pupils;
 mod self_shadow;
 mod skin;
 mod skin_drawn;

@@ -3,7 +3,9 @@
 use hikage::{
     material::{Base, Material, Shading, TextureRef, Toon},
     motion::{Pose, Shifts},
-    scene::{Character, ColorBind, ColorTarget, Expression, ExpressionOverride, MorphBind, Node, Scene, UvBind},
+    scene::{
+        Character, ColorBind, ColorTarget, Expression, ExpressionOverride, MorphBind, Node, Pupils, Scene, UvBind,
+    },
 };
 
 fn morph(name: &str, target: usize) -> Expression {
@@ -93,6 +95,38 @@ fn colours_and_uvs_move_towards_their_targets() {
     assert_eq!(pose.shifts.applied(1, &edited), edited, "another material");
     pose.set_expressions(&scene, &[]).expect("known");
     assert_eq!(pose.shifts, Shifts::default(), "nothing stays when expressions end");
+}
+
+#[test]
+fn pupils_widen_and_narrow_with_expressions() {
+    let mut scene = scene();
+    let scale = |scene: &Scene, expressions: &[(&str, f32)]| {
+        let mut pose = Pose::rest(scene);
+        pose.express(scene, expressions);
+        pose.pupil_scale
+    };
+    assert_eq!(scale(&scene, &[("happy", 1.0)]), 1.0, "without pupils");
+    let expressions = [("happy", 1.5), ("aa", 0.5), ("wink", 2.0), ("blink", 0.2)];
+    let expressions = expressions.map(|(name, factor)| (name.to_owned(), factor)).into();
+    scene.pupils = Some(Pupils { expressions, ..Pupils::default() });
+    for (weights, expected) in [
+        (&[][..], 1.0),
+        (&[("happy", 1.0)], 1.5),
+        (&[("happy", 0.5)], 1.25),
+        (&[("happy", 9.0)], 1.5),
+        (&[("aa", 1.0)], 0.5),
+        (&[("aa", 0.5), ("wink", 0.6)], 1.5),
+        // What another expression takes back is not seen in the pupils either.
+        (&[("happy", 0.4), ("aa", 1.0), ("blink", 1.0)], 1.2 * 0.7),
+        (&[("wink", 0.4)], 1.0),
+    ] {
+        let found = scale(&scene, weights);
+        assert!((found - expected).abs() < 1e-6, "{weights:?}: {found} {expected}");
+    }
+    let mut pose = Pose::rest(&scene);
+    pose.pupil_scale = 2.0;
+    pose.set_expressions(&scene, &[]).expect("known");
+    assert_eq!((pose.pupil_scale, Pose::default().pupil_scale), (1.0, 1.0), "nothing stays when expressions end");
 }
 
 #[test]

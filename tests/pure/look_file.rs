@@ -6,7 +6,7 @@ use hikage::LookFile;
 use hikage::import::{Limits, load_bytes};
 use hikage::material::{AngleMapping, OutlineWidth, Shading};
 use hikage::picture::write_png;
-use hikage::scene::{Image, Role, Scene};
+use hikage::scene::{Character, Expression, Image, Pupils, Role, Scene};
 
 fn heroine() -> Scene {
     load_bytes("hikage.vrm", &hikage_character::file(), None, &Limits::default()).expect("the file is read")
@@ -62,6 +62,8 @@ fn sections_change_what_they_name_and_nothing_else() {
         direction_deg = [-30, 45]
         [eyes_through]
         opacity = 0.25
+        [pupils]
+        dilation_s = 2
         [role.hair-front]
         double_sided = true
         [role.hair-front.depth_rim]
@@ -86,6 +88,7 @@ fn sections_change_what_they_name_and_nothing_else() {
     assert!((bangs.direction_rad.expect("a direction")[0] + 30f32.to_radians()).abs() < 1e-6);
     assert_eq!(bangs.hardness, hikage::scene::Bangs::default().hardness, "what is not named stays");
     assert_eq!(scene.eyes_through.expect("eyes").opacity, 0.25);
+    assert_eq!(scene.pupils, Some(Pupils { dilation_s: 2.0, ..Pupils::default() }));
     let [face, hair, dress] = [&scene.materials[0], &scene.materials[1], &scene.materials[2]];
     assert_eq!(face.transition.expect("a transition").width, 0.3);
     assert!(hair.double_sided && hair.depth_rim.expect("a rim").width_px == 6.0 && face.depth_rim.is_none());
@@ -116,6 +119,50 @@ fn an_anime_look_is_the_base_and_false_switches_sections_off() {
     let mut scene = heroine();
     apply("eyes_through = false\nbangs = false", &mut scene).expect("a good look");
     assert!(scene.eyes_through.is_none() && scene.bangs.is_none());
+}
+
+/// Pupils change with the expressions that a character has, by their names, whatever these end in.
+#[test]
+fn pupils_follow_the_expressions_of_the_character() {
+    let named = |name: &str| Expression { name: name.to_owned(), ..Expression::default() };
+    let character = Character { expressions: vec![named("surprised"), named("star_mm")], ..Character::default() };
+    let doll = || Scene { character: Some(character.clone()), ..doll() };
+    let mut scene = doll();
+    let text = "[pupils]\nreflex = 0.5\nexpressions = { surprised = 0.7, star_mm = 2 }";
+    apply(text, &mut scene).expect("a good look");
+    let expressions = [("surprised".to_owned(), 0.7), ("star_mm".to_owned(), 2.0)].into();
+    let expected = Pupils { reflex: 0.5, expressions, ..Pupils::default() };
+    assert_eq!(scene.pupils, Some(expected.clone()));
+    scene.check().expect("a good scene");
+    // One is changed or switched off, the others stay; so does all of it in a template.
+    let template = LookFile::template(&scene);
+    apply("[pupils.expressions]\nstar_mm = false\nsurprised = 0.8", &mut scene).expect("a good look");
+    assert_eq!(scene.pupils.expect("pupils").expressions, [("surprised".to_owned(), 0.8)].into());
+    scene = doll();
+    apply(&template, &mut scene).expect("a template is a good look");
+    assert_eq!(scene.pupils, Some(expected.clone()));
+    apply("pupils = false", &mut scene).expect("a good look");
+    assert_eq!(scene.pupils, None);
+
+    for (pupils, words) in [
+        ("expressions = { suprised = 0.7 }", &["pupils.expressions", "\"suprised\"", "\"surprised\""][..]),
+        ("expressions = { surprised = 9 }", &["pupils.expressions", "is 9", "0.2..3"]),
+        ("expressions = { surprised = nan }", &["pupils", "expressions.surprised", "not finite"]),
+        ("expressions = { surprised = \"wide\" }", &["pupils", "wide"]),
+        ("reflex = 2", &["pupils.reflex", "is 2", "0..1"]),
+        ("luminance = 0", &["pupils.luminance", "is 0", "0.001..100000"]),
+        ("dilation = 2", &["pupils", "\"dilation\"", "\"dilation_s\""]),
+    ] {
+        let message = apply(&format!("[pupils]\n{pupils}"), &mut doll()).expect_err(pupils);
+        for part in words {
+            assert!(message.contains(part), "{pupils:?}: {message:?} lacks {part:?}");
+        }
+        assert!(message.starts_with("girl.look.toml") && !message.contains('\n'), "{message}");
+    }
+    // A scene made in code is checked the same.
+    let nobody = Scene { pupils: Some(expected), ..Scene::default() };
+    let error = nobody.check().expect_err("no such expression").to_string();
+    assert!(error.contains("pupils.expressions[\"star_mm\"]"), "{error}");
 }
 
 /// The text that stands for the anime look of a scene gives that look.

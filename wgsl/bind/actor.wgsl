@@ -51,6 +51,12 @@ struct Actor {
     shadow_layer: f32,
     // First layer of the light on its skin over texture coordinates; below 0 it has none.
     skin_layer: f32,
+    // Diameter of its pupils by the light, mm, before it is scaled; 0 where they do not follow the light.
+    pupil_mm: f32,
+    // What their diameter is multiplied by: expressions.
+    pupil_scale: f32,
+    // How far the diameter by the light stands in the place of the material's own, 0..1.
+    pupil_reflex: f32,
 }
 
 // A vertex: position (character space once it is deformed) and octahedral snorm16 pairs of its normal, tangent

@@ -1,7 +1,9 @@
 // What goes from vertex to fragment: one struct for every pass, with what its shader reads.
 import package::bind::actor::actors;
+import package::bind::eye::eye_axes;
 import package::bind::frame::frame;
 import package::bind::vertex::{Vertex, bitangent_sign, world_direction, world_position, world_rotated};
+import package::lib::normal::octahedral_from_unit;
 import package::material::{stage_place, stage_vary};
 
 struct Varying {
@@ -15,15 +17,21 @@ struct Varying {
     @if(vertex_color || strips) @location(4) color: vec4f,
     // Directional light in the frame of the face: x to the character's left, height (radians), angle over pi, and what
     // thresholds are compared with.
-    @if(face_light) @location(5) @interpolate(flat) face_light: vec4f,
+    @if(face_light && !eye_vertex) @location(5) @interpolate(flat) face_light: vec4f,
+    // Direction of a place from the middle of its eye, by the axes of the face.
+    @if(eye_lids) @location(5) eye_face: vec3f,
+    // What the pupil of a drawn iris is multiplied by.
+    @if(eye_depth) @location(5) @interpolate(flat) pupil: f32,
     // Place in the map of the bangs' shadow.
     @if(bangs) @location(6) bangs: vec3f,
     // Movement of the highlight, and what is left of it.
     @if(moved) @location(7) @interpolate(flat) moved: vec3f,
     // Place in the shadow map of the character, and its layer.
     @if(shadow) @location(8) shadow: vec4f,
+    // Of an eye: its number, and its gaze and what is to the right of it in the world, octahedral snorm16.
+    @if(eye_vertex) @location(9) @interpolate(flat) eye_axes: vec3u,
     // How far the line of the nose shows.
-    @if(nose) @location(9) @interpolate(flat) nose: f32,
+    @if(nose && !eye_vertex) @location(9) @interpolate(flat) nose: f32,
     // Height of a shell above the root, share of the length.
     @if(level) @location(10) @interpolate(flat) level: f32,
     // Of weighted layers, where there is no shell: distance of the middle of what is weighted, its radius, and how near it is
@@ -37,9 +45,15 @@ struct Varying {
     @if(depth) @location(13) depth: f32,
     // Of skin in pictures: curvature, 1/m, thickness, m, and occlusion.
     @if(skin_vertex && !depth) @location(13) skin: vec3f,
+    // Place in the eye: radii of its ball, or shares of a drawn iris.
+    @if(eye_vertex && !depth) @location(13) eye_place: vec3f,
     @if(actor) @location(14) @interpolate(flat) actor: u32,
     // Where it was in the last picture: x, y and w of the clip position.
     @if(before) @location(15) before: vec3f,
+}
+
+fn packed_direction(d: vec3f) -> u32 {
+    return pack2x16snorm(octahedral_from_unit(d));
 }
 
 // Of a vertex of the picture.
@@ -60,6 +74,10 @@ fn with_attributes(v: Vertex, given: Varying) -> Varying {
     @if(vertex_color || strips) out.color = v.color;
     @if(actor) out.actor = v.actor;
     @if(skin_vertex && !depth) out.skin = v.skin;
+    @if(eye_vertex && !depth) out.eye_place = v.eye_place;
+    @if(eye_vertex) out.eye_axes = vec3u(
+        v.eye_axes.x, packed_direction(world_direction(v, v.eye_axes.y)), packed_direction(world_direction(v, v.eye_axes.z))
+    );
     return out;
 }
 
@@ -70,4 +88,11 @@ fn in_face_frame(v: Vertex, d: vec3f) -> vec3f {
         dot(d, world_rotated(v, actors[v.actor].face_up)),
         dot(d, world_rotated(v, actors[v.actor].face_forward)),
     );
+}
+
+// Direction of a place from the middle of its eye, by the axes of the face.
+@if(eye_vertex)
+fn eye_in_face(v: Vertex, given: Varying) -> vec3f {
+    let axes = eye_axes(given);
+    return in_face_frame(v, axes * given.eye_place);
 }

@@ -17,6 +17,8 @@ struct VertexInput {
     @location(6) actor: vec3u,
     // Curvature of skin, 1/m, its thickness, m, and the share of light from all around that does not arrive; character space.
     @if(skin_vertex) @location(7) skin: vec3f,
+    // Place in the eye over 2, as snorm16, and the vertex that is the eye.
+    @if(eye_vertex) @location(8) eye: vec2u,
 }
 
 struct Vertex {
@@ -36,6 +38,9 @@ struct Vertex {
     extra: u32,
     // Curvature, 1/m, and thickness, m, in the world, and occlusion.
     @if(skin_vertex) skin: vec3f,
+    // Place in the eye, its number, and its gaze and what is to the right of it, packed.
+    @if(eye_vertex) eye_place: vec3f,
+    @if(eye_vertex) eye_axes: vec3u,
 }
 
 fn vertex_of(in: VertexInput) -> Vertex {
@@ -51,6 +56,11 @@ fn vertex_of(in: VertexInput) -> Vertex {
     v.world_row_z = in.world_row_z;
     v.actor = in.actor.x;
     v.extra = in.actor.z;
+    @if(eye_vertex) {
+        let number = in.eye.y >> 16u;
+        v.eye_place = 2.0 * vec3f(unpack2x16snorm(in.eye.x), unpack2x16snorm(in.eye.y).x);
+        v.eye_axes = vec3u(number, deformed[in.actor.y + number].normal, deformed[in.actor.y + number].tangent);
+    }
     @if(skin_vertex) {
         let scale = length(in.world_row_x.xyz);
         v.skin = in.skin * vec3f(1.0 / max(scale, 1e-6), scale, 1.0);

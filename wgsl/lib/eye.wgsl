@@ -1,5 +1,6 @@
 // An eye behind its cornea: Snell's law into the plane of the iris, the pupil, the limbus, light on the iris. Space of the eye:
 // origin at the centre of the ball, +z out of the pupil, mm of a human eye. Vectors are unit and point away from the surface.
+import package::lib::noise::value_noise;
 
 // Normal of the cornea's sphere (centre on the axis) where the view ray through a place of the mesh enters it; the place itself is
 // the centre plus radius times that. A ray that misses the sphere has its nearest point.
@@ -127,4 +128,95 @@ fn cornea_ray(x: f32, along: f32, ior: f32) -> CorneaRay {
     let transmitted = 1.0 - 0.5 * (across * across + within * within);
     // Where rays cross, the bounds keep light finite.
     return CorneaRay(x, c, bent, max(share, 0.1), max(spread, 0.1), transmitted);
+}
+
+// Where the view ray through a place of the mesh enters the cornea's sphere, mm, and whether it does: of a ray that misses, the
+// nearest place of the sphere.
+fn cornea_entry(place: vec3f, view: vec3f, centre_z: f32, radius: f32) -> vec4f {
+    let normal = cornea_normal(place, view, centre_z, radius);
+    let off = place - vec3f(0.0, 0.0, centre_z);
+    let nearest = off - dot(off, view) * view;
+    // Over a tenth of a millimetre.
+    let hit = saturate((radius - length(nearest)) * 10.0 + 0.5);
+    return vec4f(vec3f(0.0, 0.0, centre_z) + radius * normal, hit);
+}
+
+// Edge of a lid, a parabola over longitude, at a direction from the middle of the ball.
+fn lid_edge(lid: vec3f, longitude: f32) -> f32 {
+    return lid.x + longitude * (lid.y + longitude * lid.z);
+}
+
+// What lids and lashes leave of light on a place of the ball, whose direction is given by the axes of the face; numbers of the lids
+// as the upload found them, radians.
+fn lid_shade(place: vec3f, upper: vec3f, lower: vec3f, reach: f32, lids: f32, lashes: f32) -> f32 {
+    let d = normalize(place);
+    let longitude = atan2(d.x, max(d.z, 1e-3));
+    let elevation = asin(clamp(d.y, -1.0, 1.0));
+    let below = lid_edge(upper, longitude) - elevation;
+    let above = elevation - lid_edge(lower, longitude);
+    let of_upper = 1.0 - lids * (1.0 - smoothstep(0.0, reach, below));
+    let of_lower = 1.0 - 0.5 * lids * (1.0 - smoothstep(0.0, 0.6 * reach, above));
+    // Lashes stand before the lid: their shade ends where its own is half gone.
+    let of_lashes = 1.0 - lashes * (1.0 - smoothstep(0.2 * reach, 0.65 * reach, below));
+    return of_upper * of_lower * of_lashes;
+}
+
+// Share of the wet line along the lower lid.
+fn wet_line(place: vec3f, lower: vec3f, width: f32) -> f32 {
+    let d = normalize(place);
+    let above = asin(clamp(d.y, -1.0, 1.0)) - lid_edge(lower, atan2(d.x, max(d.z, 1e-3)));
+    return (1.0 - smoothstep(0.35, 1.0, above / max(width, 1e-4))) * f32(width > 0.0);
+}
+
+// Share of veins at a place of the white; `rho` is its distance from the axis in radii of the limbus. They run from the corners to
+// the iris and thin out before it.
+fn sclera_veins(place: vec3f, rho: f32) -> f32 {
+    let turn = atan2(place.y, place.x) / 6.28318531;
+    let way = length(place.xy) * 0.35;
+    let bend = value_noise(vec2f(turn * 14.0, way * 1.7), vec2i(14, 64), 3) - 0.5;
+    var sum = 0.0;
+    for (var i = 0; i < 2; i++) {
+        let fine = f32(1 + i);
+        let lines = 24.0 * fine;
+        let noise = value_noise(vec2f((turn + 0.03 * bend) * lines, way * fine), vec2i(i32(lines), 64), i);
+        let width = 0.08 * fine;
+        sum += smoothstep(1.0 - width, 1.0, 1.0 - abs(2.0 * noise - 1.0)) / fine;
+    }
+    let corner = abs(place.x) / max(length(place.xy), 1e-3);
+    let far = smoothstep(1.1, 2.0, rho);
+    return saturate(sum) * far * (0.3 + 0.7 * corner) + 0.25 * far * far * corner;
+}
+
+// Share of a painted light at a place of the cornea, mm from its centre, eye space. `axes` are those of the eye and `screen` those of
+// the view (right, up, to the viewer) in the world; `radii` of cornea and iris; `shape` is round, follow and within.
+fn catch_light(
+    entry: vec3f, axes: mat3x3f, screen: mat3x3f, to_light: vec3f, radii: vec2f, half_size: vec2f, from_rad: vec2f, shape: vec3f
+) -> f32 {
+    let c = cos(from_rad);
+    let s = sin(from_rad);
+    let from_view = screen * vec3f(s.x * c.y, s.y, c.x * c.y);
+    let from_here = normalize(mix(from_view, to_light, shape.y) + screen[2] * 1e-3);
+    let h = normalize(screen[2] + from_here) * axes;
+    // Where the cornea would mirror it, within its bound.
+    var middle = h.xy * radii.x / radii.y;
+    middle *= min(1.0, shape.z / max(length(middle), 1e-4));
+    let flat = middle * radii.y;
+    let on = vec3f(flat, sqrt(max(radii.x * radii.x - dot(flat, flat), 0.0)));
+    let away = (axes * (entry - on)) * screen;
+    let share = abs(away.xy) / (max(half_size, vec2f(1e-3)) * radii.y);
+    let power = mix(6.0, 2.0, shape.x);
+    let round = pow(pow(max(share.x, 1e-4), power) + pow(max(share.y, 1e-4), power), 1.0 / power);
+    let edge = clamp(fwidth(round), 0.02, 0.5);
+    return (1.0 - smoothstep(1.0 - edge, 1.0 + edge, round)) * smoothstep(0.0, 0.2, h.z);
+}
+
+// Where a ray from a place of the unit disc into the eye meets a bowl that is `depth` deep in the middle and has its rim there; what
+// lies outside stays. Unit: the disc's radius.
+fn bowl_place(q: vec2f, ray: vec3f, depth: f32) -> vec2f {
+    let slope = ray.xy / max(-ray.z, LEAST_IRIS_SLOPE);
+    // |q + slope d|² = 1 - d / depth.
+    let a = dot(slope, slope);
+    let b = 2.0 * dot(q, slope) + 1.0 / max(depth, 1e-4);
+    let c = max(1.0 - dot(q, q), 0.0);
+    return q + slope * (2.0 * c / (b + sqrt(max(b * b + 4.0 * a * c, 1e-12))));
 }

@@ -17,3 +17,10 @@ fn highlight_fade(v_dot_f: f32, v_dot_l: f32, facing: f32) -> f32 {
 fn highlight_broken(layer: f32, strand: f32, breakup: f32) -> f32 {
     return saturate((layer - breakup * strand) / max(1.0 - breakup, 1e-3));
 }
+
+// How far a card of light goes to the character's left and up, metres; directions to the viewer and the light by the axes of the
+// face. What stands behind the head moves it no farther than what stands beside it.
+fn card_shift(view: vec3f, to_light: vec3f, by_view: vec2f, by_light: vec2f, within: f32) -> vec2f {
+    let shift = view.xy * by_view + to_light.xy * by_light;
+    return shift * min(1.0, max(within, 0.0) / max(length(shift), 1e-9));
+}

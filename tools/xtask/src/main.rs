@@ -30,9 +30,9 @@ cargo xtask TASK
                             byte; the pictures of a build are kept, so that OLD is drawn once only
   compare-references [DIR] [--write OUTDIR] [--only TEXT] [--json]
                             compare with pictures of another renderer (DIR: ../shared/models)
-  compare-real hair|skin [DIR] [--only GLOB] [--method NAME] [--json]
-                            compare real hair or skin with pictures of a path tracer (DIR: ../shared/real; needs Python with
-                            numpy, scipy and pillow)
+  compare-real hair|skin|eye [DIR] [--only GLOB] [--method NAME] [--json]
+                            compare real hair, skin or eyes with pictures of a path tracer (DIR: ../shared/real; needs Python
+                            with numpy, scipy and pillow)
   vrm-check                 the built-in character in glTF-Validator and three-vrm (needs npm and Chromium)
   badinput [DIR]            feed the corpus of malformed files to `hikage` (DIR: ../shared/badinput)
 ";
@@ -79,7 +79,7 @@ fn run(task: &str, args: &[String]) -> Outcome {
         "compare-real" => {
             let mut command = vec!["run", "--quiet", "--release", "-p", "hikage-cli", "--", "compare-real"];
             let what = args.first().filter(|first| !first.starts_with('-')).ok_or_else(|| {
-                Stop(2, "compare-real: say what is compared: cargo xtask compare-real hair|skin [FOLDER]".into())
+                Stop(2, "compare-real: say what is compared: cargo xtask compare-real hair|skin|eye [FOLDER]".into())
             })?;
             command.push(what);
             if args.get(1).is_none_or(|folder| folder.starts_with('-')) {

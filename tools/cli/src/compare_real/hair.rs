@@ -84,7 +84,7 @@ pub(super) fn shot(dir: &Path, of: &Reference) -> Result<Shot, String> {
         scenes.push(scene);
         12
     };
-    Ok(Shot { scenes, scale })
+    Ok(Shot::of(of, scenes, scale))
 }
 
 const SHADOW: SelfShadow = SelfShadow { side: 4096, soft_width_m: 0.002, bias_texels: 2.0 };

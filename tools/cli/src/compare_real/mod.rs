@@ -3,6 +3,7 @@
 //! `DIR/reference/NAME.json` states model, camera, light and material of `NAME.npz`; models lie in `DIR/models`. Our pictures are
 //! written as linear `NAME.npy`, and `DIR/compare_real.py` scores them.
 
+mod eye;
 mod hair;
 mod scorer;
 mod skin;
@@ -16,7 +17,7 @@ use std::path::{Path, PathBuf};
 use hikage::color::LinearRgb;
 use hikage::material::SkinDiffuse;
 use hikage::picture::read_linear;
-use hikage::scene::{Ambient, Lights, Scene};
+use hikage::scene::{Ambient, Camera, DirectionalLight, Lights, Scene};
 use hikage::skin::Transmission;
 use hikage::{Actor, Background, Gpu, Output, Renderer, Stage, View, wgpu};
 use npyz::WriterBuilder as _;
@@ -35,6 +36,7 @@ Examples:
   hikage compare-real hair ../shared/real
   hikage compare-real hair ../shared/real --only 'hair_arch_*' --json
   hikage compare-real skin ../shared/real --only 'skin_close_*' --method screen-space
+  hikage compare-real eye ../shared/real --only 'eye_grid_*' --write eyes
 
 The scorer is Python and needs numpy, scipy and pillow (Debian: apt install python3-numpy python3-scipy python3-pil).")]
 pub(crate) struct Args {
@@ -71,6 +73,8 @@ enum What {
     Hair,
     /// Scenes skin_head, skin_close, skin_sphere, skin_ear and skin_wedge, by every method.
     Skin,
+    /// Scenes eye_grid, eye_caustic and eye_lit.
+    Eye,
 }
 
 /// What is drawn of a reference.
@@ -78,6 +82,22 @@ struct Shot {
     scenes: Vec<Scene>,
     /// How many times as large.
     scale: u32,
+    size: [u32; 2],
+    camera: Camera,
+    lights: Lights,
+}
+
+impl Shot {
+    /// As a reference is seen, in its light and no other.
+    fn of(of: &Reference, scenes: Vec<Scene>, scale: u32) -> Self {
+        let none = DirectionalLight { intensity: 0.0, ..DirectionalLight::default() };
+        let lights = Lights {
+            directional: of.light.as_ref().map_or(none, DirectionalLight::from),
+            ambient: Ambient::uniform(LinearRgb::BLACK),
+            ..Lights::default()
+        };
+        Self { scenes, scale, size: [of.width, of.height], camera: (&of.camera).into(), lights }
+    }
 }
 
 /// A picture of ours and the reference that it is compared with.
@@ -97,13 +117,17 @@ struct Reference {
     width: u32,
     height: u32,
     camera: ReferenceCamera,
-    light: ReferenceLight,
+    light: Option<ReferenceLight>,
     core: Option<String>,
     material: serde_json::Value,
+    /// Of an eye.
+    #[serde(default)]
+    eye: serde_json::Value,
+    #[serde(default)]
     bounces: Bounces,
 }
 
-#[derive(Deserialize)]
+#[derive(Default, Deserialize)]
 struct Bounces {
     max: u32,
 }
@@ -139,13 +163,13 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         spinner.step(format!("{} of {}: {title}", index + 1, pairs.len()));
         let mut compared = || -> Result<serde_json::Value, Failure> {
             let picture = out.join(format!("{}.npy", pair.picture));
+            if let Some(kind) = eye::Kind::of(name) {
+                return eye::figures(&gpu, &scorer, &args.dir, kind, &root.join(name), &picture);
+            }
             if !made.contains(&pair.picture) {
-                let file = root.join(format!("{name}.json"));
-                let fail = |what: String| Failure::input(format!("{}: {what}", file.display()));
-                let of: Reference =
-                    serde_json::from_slice(&setup::read_small(&file)?).map_err(|e| fail(e.to_string()))?;
-                let Shot { scenes, scale } = pair.shot(args, &of).map_err(fail)?;
-                let texels = drawn(&gpu, &of, scenes, scale)?;
+                let of: Reference = described(&root.join(name))?;
+                let fail = |what: String| Failure::input(format!("{}: {what}", root.join(name).display()));
+                let texels = drawn(&gpu, pair.shot(args, &of).map_err(fail)?)?;
                 write_npy(&picture, [of.width, of.height], &texels)?;
                 made.insert(&pair.picture);
             }
@@ -167,9 +191,10 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     if args.json {
         print_json(&outcome)?;
     } else {
-        let lines = outcome.rows.iter().map(|row| match row.method {
-            Some(_) => scorer::skin_line(&title(&row.name, row.method), &row.figures),
-            None => scorer::hair_line(&row.name, &row.figures),
+        let lines = outcome.rows.iter().map(|row| match args.what {
+            What::Hair => scorer::hair_line(&row.name, &row.figures),
+            What::Skin => scorer::skin_line(&title(&row.name, row.method), &row.figures),
+            What::Eye => scorer::eye_line(&row.name, &row.figures),
         });
         let failed = outcome.failed.iter().map(|(name, why)| format!("{name}: {why}\n"));
         print(&lines.chain(failed).collect::<String>())?;
@@ -204,11 +229,10 @@ fn pairs(root: &Path, args: &Args) -> Result<Vec<Pair>, Failure> {
         .filter(|name| fits(glob, name))
         .collect();
     names.sort();
+    let pair = |name: String| Pair { picture: name.clone(), reference: name, method: None };
     let (what, pairs): (&str, Vec<Pair>) = match args.what {
-        What::Hair => {
-            let pair = |name: String| Pair { picture: name.clone(), reference: name, method: None };
-            ("hair", names.into_iter().filter(|name| hair::is_scene(name)).map(pair).collect())
-        }
+        What::Hair => ("hair", names.into_iter().filter(|name| hair::is_scene(name)).map(pair).collect()),
+        What::Eye => ("eye", names.into_iter().filter(|name| eye::Kind::of(name).is_some()).map(pair).collect()),
         What::Skin => {
             let is_asked = |method: &SkinDiffuse| args.method.is_none_or(|asked| asked == *method);
             let of = |name: &String| {
@@ -242,8 +266,16 @@ fn fits(glob: &str, name: &str) -> bool {
     }
 }
 
+/// What a file beside a reference says of it.
+fn described<T: serde::de::DeserializeOwned>(reference: &Path) -> Result<T, Failure> {
+    let file = reference.with_extension("json");
+    let fail = |e: serde_json::Error| Failure::input(format!("{}: {e}", file.display()));
+    serde_json::from_slice(&setup::read_small(&file)?).map_err(fail)
+}
+
 /// Our picture of a reference: linear, premultiplied. It is drawn `scale` times as large.
-fn drawn(gpu: &Gpu, of: &Reference, scenes: Vec<Scene>, scale: u32) -> Result<Vec<[f32; 4]>, Failure> {
+fn drawn(gpu: &Gpu, shot: Shot) -> Result<Vec<[f32; 4]>, Failure> {
+    let Shot { scenes, scale, size, camera, lights } = shot;
     let output = Output { format: wgpu::TextureFormat::Rgba16Float, ..Output::default() };
     let renderer = Renderer::with_output(gpu, output)?;
     let mut actors = Vec::new();
@@ -252,10 +284,9 @@ fn drawn(gpu: &Gpu, of: &Reference, scenes: Vec<Scene>, scale: u32) -> Result<Ve
         actors.push(Actor::new(&renderer.upload(&scene)?));
     }
     let mut stage = Stage::of(actors);
-    stage.lights =
-        Lights { directional: (&of.light).into(), ambient: Ambient::uniform(LinearRgb::BLACK), ..Lights::default() };
-    let size = [of.width * scale, of.height * scale];
-    let view = View { size, camera: (&of.camera).into(), background: Background::Transparent, ..View::default() };
+    stage.lights = lights;
+    let size = size.map(|side| side * scale);
+    let view = View { size, camera, background: Background::Transparent, ..View::default() };
     let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
         label: Some("picture"),
         size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },

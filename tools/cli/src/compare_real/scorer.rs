@@ -53,6 +53,11 @@ impl Scorer {
         self.figures(&args)
     }
 
+    /// Figures of a picture of an eye with dots on its iris.
+    pub(super) fn eye(&self, reference: &Path, picture: &Path) -> Result<Value, Failure> {
+        self.figures(&["eye".as_ref(), reference.as_os_str(), picture.as_os_str()])
+    }
+
     fn figures(&self, args: &[&OsStr]) -> Result<Value, Failure> {
         let done = Command::new(self.python)
             .arg("-B")
@@ -119,4 +124,26 @@ pub(super) fn skin_line(name: &str, figures: &Value) -> String {
         text += &format!("  sphere dE p95 {}, rmse {sphere}", number(&figures["dE2000p95"]));
     }
     text + "\n"
+}
+
+/// The figures of a picture of an eye in a line.
+pub(super) fn eye_line(name: &str, figures: &Value) -> String {
+    let (same, ratio) = (number(&figures["correlation"]), number(&figures["ratioOfMeans"]));
+    let text = match figures["kind"].as_str() {
+        Some("caustic") => format!("correlation {same}  mean of ours over theirs {ratio}"),
+        Some("lit") => {
+            let off = number(&figures["meanAbsDifference"]);
+            format!("correlation {same}  mean of ours over theirs {ratio}  off by {off}")
+        }
+        _ => {
+            let off = |from: &str| ["mean", "p95", "max"].map(|key| number(&figures[from][key])).join(" ");
+            let (found, visible) = (&figures["candFound"], &figures["visibleDots"]);
+            format!(
+                "{found} of {visible} dots  px off where they are, mean p95 max {}  off the reference's {}",
+                off("candVsAnalytic"),
+                off("candVsRefRender"),
+            )
+        }
+    };
+    format!("{name}: {text}\n")
 }

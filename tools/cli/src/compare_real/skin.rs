@@ -125,7 +125,7 @@ pub(super) fn shot(
     } else {
         SHADOW
     });
-    Ok(Shot { scenes: vec![scene], scale: SCALE })
+    Ok(Shot::of(of, vec![scene], SCALE))
 }
 
 #[cfg(test)]

@@ -77,7 +77,8 @@ impl Strands {
     }
 }
 
-fn array<T: npyz::Deserialize>(archive: &mut ZipArchive<File>, name: &str) -> Result<Vec<T>, String> {
+/// An array of a set of them.
+pub(super) fn array<T: npyz::Deserialize>(archive: &mut ZipArchive<File>, name: &str) -> Result<Vec<T>, String> {
     let found = archive.by_name(&format!("{name}.npy")).map_err(|e| format!("{name}: {e}"))?;
     NpyFile::new(found).and_then(NpyFile::into_vec).map_err(|e| format!("{name}: {e}"))
 }

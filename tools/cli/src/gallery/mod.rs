@@ -1,5 +1,6 @@
 //! `hikage gallery`: a contact sheet for every look on the built-in character, with a page that explains them.
 
+mod eyes;
 mod page;
 mod sheets;
 mod skin;
@@ -18,15 +19,14 @@ use crate::output::make_folder;
 use crate::sheet::{BEHIND, GAP, LINE, paper, place, write};
 use crate::spinner::Spinner;
 use crate::{deadline, setup};
-use sheets::{Camera, Panel, Row, Sheet};
-use skin::Substance;
+use sheets::{Camera, Change, Panel, Row, Sheet};
 
 /// Arguments of `hikage gallery`.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Examples:
   hikage gallery -o gallery
-  hikage gallery -o gallery --only skin --skin head.glb")]
+  hikage gallery -o gallery --only skin,eyes --model head.glb")]
 pub(crate) struct Args {
     /// Folder for the sheets and index.html.
     #[arg(short, long, value_name = "DIR")]
@@ -34,9 +34,9 @@ pub(crate) struct Args {
     /// Only these sheets, by name: metal,fire.
     #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
     only: Vec<String>,
-    /// Model of the sheet skin: .vrm, .glb or .gltf [default: the built-in character].
+    /// Model of the sheets skin and eyes: .vrm, .glb or .gltf [default: the built-in character].
     #[arg(long, value_name = "MODEL")]
-    skin: Option<PathBuf>,
+    model: Option<PathBuf>,
     /// Height of one panel, pixels.
     #[arg(long, value_name = "PIXELS", default_value_t = 384, value_parser = clap::value_parser!(u32).range(64..=1024))]
     panel: u32,
@@ -59,13 +59,13 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let plain = setup::load(None)?;
     let mut scene = plain.clone();
     setup::apply_look(Some(&LookName::Anime), None, &mut scene)?;
-    let skinned = args.skin.as_deref().map(|model| setup::load(Some(model))).transpose()?;
+    let own = args.model.as_deref().map(|model| setup::load(Some(model))).transpose()?;
     let gpu = setup::gpu(args.adapter.as_deref())?;
     let renderer = Renderer::with_output(&gpu, Output::default())?;
     for (i, sheet) in sheets.iter().enumerate() {
         spinner.step(format!("{} of {}: {}", i + 1, sheets.len(), sheet.title));
-        let scenes = match &skinned {
-            Some(model) if sheet.name == skin::NAME => [model; 2],
+        let scenes = match &own {
+            Some(model) if [skin::NAME, eyes::NAME].contains(&sheet.name) => [model; 2],
             _ => [&plain, &scene],
         };
         let picture = draw(&renderer, scenes, sheet, args.panel)?;
@@ -93,9 +93,9 @@ fn draw(renderer: &Renderer, [plain, looked]: [&Scene; 2], sheet: &Sheet, panel:
         for shown in &row.panels {
             let size = [width(shown), panel];
             stage.lights.clone_from(&lights);
-            let drawn = match &shown.substances[..] {
+            let drawn = match &shown.variants[..] {
                 [] => draw_panel(renderer, &mut stage, &scene, shown, size)?,
-                list => draw_substances(renderer, &scene, list, shown, size)?,
+                list => draw_variants(renderer, &scene, list, shown, size)?,
             };
             place(&mut picture, &drawn, left, top);
             write(&mut picture, &shown.caption, left, top + panel + 4);
@@ -110,19 +110,19 @@ fn staged(renderer: &Renderer, scene: &Scene) -> Result<Stage, Failure> {
     Ok(Stage::of([Actor::new(&renderer.upload(scene)?)]))
 }
 
-/// A picture of which each substance has a share, from left to right, with lines between them.
-fn draw_substances(
+/// A picture of which each variant has a share, from left to right, with lines between them.
+fn draw_variants(
     renderer: &Renderer,
     scene: &Scene,
-    list: &[Substance],
+    list: &[Change],
     shown: &Panel,
     size: [u32; 2],
 ) -> Result<Image, Failure> {
     let mut picture = paper(size[0], size[1]);
     let stride = size[0] as usize * 4;
-    for (i, substance) in list.iter().enumerate() {
+    for (i, change) in list.iter().enumerate() {
         let mut scene = scene.clone();
-        substance.apply(&mut scene);
+        change(&mut scene);
         let drawn = draw_panel(renderer, &mut staged(renderer, &scene)?, &scene, shown, size)?;
         let from = size[0] as usize * i / list.len() * 4;
         for (to, line) in picture.pixels.chunks_exact_mut(stride).zip(drawn.pixels.chunks_exact(stride)) {
@@ -160,6 +160,16 @@ fn draw_panel(
         Camera::Ear { yaw } => {
             let tip = head(scene)?.into_iter().max_by(|a, b| a.x.total_cmp(&b.x)).unwrap_or_default();
             looking_at(tip - Vec3::X * 0.012, 0.045, [yaw, 0.0], size)
+        }
+        Camera::Eyes { both, yaw } => {
+            let (low, high) = eye(scene)?;
+            let (middle, wide) = ((low + high) * 0.5, high.x - low.x);
+            let (x, half) = if both {
+                (0.0, (high.x + 0.4 * wide) / panel.aspect)
+            } else {
+                (middle.x, 0.8 * wide)
+            };
+            looking_at(Vec3::new(x, middle.y, high.z), half, [yaw, 0.0], size)
         }
     };
     if let Some(head) = scene.bone_node(HumanBone::Head) {
@@ -206,30 +216,40 @@ const HEADS: [(Role, f32); 2] = [(Role::Face, 0.25), (Role::Skin, 0.22)];
 
 /// Skin within a head's height of its top, at rest; that of the face alone where it is known.
 fn head(scene: &Scene) -> Result<Vec<Vec3>, Failure> {
-    let world = scene.world_from_nodes(&Pose::rest(scene).locals);
-    let of = |role: Role| -> Vec<Vec3> {
-        let parts = scene.mesh_nodes().flat_map(|(node, mesh)| {
-            // Joints, not its node, place what is skinned.
-            let matrix = if scene.nodes[node].skin.is_some() {
-                Mat4::IDENTITY
-            } else {
-                world[node]
-            };
-            mesh.primitives.iter().map(move |p| (matrix, p))
-        });
-        let parts = parts.filter(|(_, p)| p.role == role);
-        parts.flat_map(|(m, p)| p.positions.iter().map(move |p| m.transform_point3(Vec3::from_array(*p)))).collect()
-    };
     let heads = HEADS.map(|(role, height)| {
-        let mut points = of(role);
+        let mut points = points_of(scene, role);
         let top = bounds(&points).1.y;
         points.retain(|p| p.y > top - height);
         points
     });
-    heads
-        .into_iter()
-        .find(|points| !points.is_empty())
-        .ok_or_else(|| Failure::input("--skin: the model has no part that is known as skin (`hikage inspect`)"))
+    heads.into_iter().find(|points| !points.is_empty()).ok_or_else(|| lacks("skin"))
+}
+
+/// Bounds of the left eye at rest.
+fn eye(scene: &Scene) -> Result<(Vec3, Vec3), Failure> {
+    let mut points = points_of(scene, Role::Eye);
+    points.retain(|p| p.x > 0.0);
+    (!points.is_empty()).then(|| bounds(&points)).ok_or_else(|| lacks("eye"))
+}
+
+fn lacks(role: &str) -> Failure {
+    Failure::input(format!("--model: the model has no part that is known as {role} (`hikage inspect`)"))
+}
+
+/// Vertices of a role at rest.
+fn points_of(scene: &Scene, role: Role) -> Vec<Vec3> {
+    let world = scene.world_from_nodes(&Pose::rest(scene).locals);
+    let parts = scene.mesh_nodes().flat_map(|(node, mesh)| {
+        // Joints, not its node, place what is skinned.
+        let matrix = if scene.nodes[node].skin.is_some() {
+            Mat4::IDENTITY
+        } else {
+            world[node]
+        };
+        mesh.primitives.iter().map(move |p| (matrix, p))
+    });
+    let parts = parts.filter(|(_, p)| p.role == role);
+    parts.flat_map(|(m, p)| p.positions.iter().map(move |p| m.transform_point3(Vec3::from_array(*p)))).collect()
 }
 
 /// A view from 0.6 m to a target, whose half height fills half of the picture's.
@@ -261,7 +281,7 @@ impl Default for Panel {
             coolness: None,
             time_s: 0.0,
             background: None,
-            substances: Vec::new(),
+            variants: Vec::new(),
         }
     }
 }

@@ -9,7 +9,7 @@ use hikage::material::{
 use hikage::motion::Stance;
 use hikage::scene::{Bloom, Framing, Image, Post, PunctualLight, Sampler, Scene, Texture, ToneCurve};
 
-use super::skin::{self, Substance};
+use super::{eyes, skin};
 
 /// One sheet: a picture of rows of panels.
 pub(super) struct Sheet {
@@ -49,9 +49,12 @@ pub(super) struct Panel {
     pub coolness: Option<f32>,
     pub time_s: f32,
     pub background: Option<Srgb>,
-    /// What skin is made of instead: two share the picture, the first in its left half.
-    pub substances: Vec<Substance>,
+    /// Changes of the scene: two share the picture, the first in its left half.
+    pub variants: Vec<Change>,
 }
+
+/// What makes another scene of one.
+pub(super) type Change = Box<dyn Fn(&mut Scene)>;
 
 #[derive(Clone, Copy)]
 pub(super) enum Camera {
@@ -63,6 +66,8 @@ pub(super) enum Camera {
     Head { yaw: f32, height: f32 },
     /// The left ear, from so many degrees to the left; at rest.
     Ear { yaw: f32 },
+    /// The left eye or both, from so many degrees to the left; at rest.
+    Eyes { both: bool, yaw: f32 },
 }
 
 fn same(_: &mut Scene) {}
@@ -87,7 +92,7 @@ fn light_sweep(camera: Camera, aspect: f32, what: &str) -> Vec<Panel> {
         .collect()
 }
 
-fn each_material(scene: &mut Scene, name: &str, change: impl Fn(&mut Material)) {
+pub(super) fn each_material(scene: &mut Scene, name: &str, change: impl Fn(&mut Material)) {
     scene.materials.iter_mut().filter(|m| m.name.starts_with(name)).for_each(change);
 }
 
@@ -103,7 +108,7 @@ pub(super) fn all() -> Vec<Sheet> {
     list.extend(ornaments());
     list.extend(whole());
     list.push(natural());
-    list.push(skin::sheet());
+    list.extend([skin::sheet(), eyes::natural(), eyes::drawn()]);
     list
 }
 

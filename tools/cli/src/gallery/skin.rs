@@ -6,15 +6,15 @@ use hikage::material::{Base, Material, Skin, SkinDiffuse};
 use hikage::scene::{Role, Scene};
 use hikage::skin::Transmission;
 
-use super::sheets::{Camera, Panel, Row, Sheet};
+use super::sheets::{Camera, Change, Panel, Row, Sheet};
 
 /// What skin is made of.
 #[derive(Clone, Copy)]
-pub(super) struct Substance {
-    pub name: &'static str,
-    pub skin: Skin,
+struct Substance {
+    name: &'static str,
+    skin: Skin,
     /// Albedo, linear; that of the model where `None`.
-    pub albedo: Option<[f32; 3]>,
+    albedo: Option<[f32; 3]>,
 }
 
 /// The sheet that may show another model.
@@ -104,7 +104,7 @@ fn made_of(camera: Camera, light: f32, substances: &[Substance]) -> Panel {
         camera,
         light_deg: [light, 25.0],
         background: Some(Srgb([0x30, 0x34, 0x3c])),
-        substances: substances.into(),
+        variants: substances.iter().map(|&s| Box::new(move |scene: &mut Scene| s.apply(scene)) as Change).collect(),
         ..Panel::default()
     }
 }
@@ -112,9 +112,18 @@ fn made_of(camera: Camera, light: f32, substances: &[Substance]) -> Panel {
 /// The natural look without hair, in a strong key light and little else, where the edge of light shows.
 fn side_lit(scene: &mut Scene) {
     Look::Natural.apply(scene);
+    without_hair(scene);
+    lit_by_key(scene);
+}
+
+pub(super) fn without_hair(scene: &mut Scene) {
     for mesh in &mut scene.meshes {
         mesh.primitives.retain(|p| !matches!(p.role, Role::Hair | Role::HairFront | Role::Accessory));
     }
+}
+
+/// Makes the key light strong and leaves little else.
+pub(super) fn lit_by_key(scene: &mut Scene) {
     if let Some(lights) = &mut scene.lights {
         lights.directional.intensity = 1.2;
         lights.environment.iter_mut().for_each(|e| e.strength = 0.12);
@@ -131,7 +140,7 @@ fn skin_of(scene: &mut Scene, change: impl Fn(&mut Material)) {
 
 impl Substance {
     /// Makes skin of it.
-    pub(super) fn apply(&self, scene: &mut Scene) {
+    fn apply(&self, scene: &mut Scene) {
         skin_of(scene, |m| {
             m.skin = Some(self.skin);
             if let Some([r, g, b]) = self.albedo {

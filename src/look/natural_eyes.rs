@@ -1,0 +1,155 @@
+//! Eyes in natural light: where they are balls, behind a cornea.
+
+use std::collections::BTreeSet;
+
+use glam::{Mat4, Vec3};
+
+use super::anime::materials_of;
+use crate::eye::{EyeBone, EyeDimensions, EyeFrame, Eyes, Painted};
+use crate::material::{Alpha, AlphaMode, CastShadow, Eye};
+use crate::scene::{Primitive, Role, Scene};
+use crate::skin::Part;
+
+/// Expression that brings eyeballs forth in the place of drawn eyes.
+const EYEBALLS: &str = "eyeballs";
+/// Radii within which parts of an eye lie, share of the ball's; and how far ahead all of such a part is.
+const OF_EYE: [f32; 2] = [0.6, 1.35];
+const AHEAD: f32 = 0.5;
+/// Radius from which on a part is the cornea.
+const CORNEA: f32 = 0.96;
+
+/// What a material is of an eye.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Layer {
+    /// The ball.
+    Ball,
+    Iris {
+        /// Its radius over the ball's.
+        radius: f32,
+    },
+    Cornea,
+}
+
+/// Gives materials of eyeballs an [`Eye`]; drawn eyes stay as they are. A character that has both shows its eyeballs.
+pub(super) fn apply(scene: &mut Scene) {
+    bring_forth(scene);
+    let layers = layers(scene);
+    let find = |wanted: fn(&Layer) -> bool| layers.iter().find(|(_, layer)| wanted(layer)).map(|(index, _)| *index);
+    let (ball, iris) = (find(|l| *l == Layer::Ball), find(|l| matches!(l, Layer::Iris { .. })));
+    let white = ball.map(|ball| scene.materials[ball].base);
+    let radius = layers.iter().find_map(|(_, layer)| match layer {
+        Layer::Iris { radius } => Some(*radius),
+        _ => None,
+    });
+    let human = EyeDimensions::default();
+    let limbus_radius_mm =
+        radius.map_or(human.limbus_radius_mm, |share| (share * human.eyeball_radius_mm).clamp(2.0, 7.5));
+    let dimensions = EyeDimensions { limbus_radius_mm, iris_radius_mm: limbus_radius_mm, ..human };
+    let picture = iris.and_then(|iris| scene.materials[iris].base.texture);
+    let color = iris.map_or([1.0; 3], |iris| {
+        let [r, g, b, _] = scene.materials[iris].base.color;
+        [r, g, b]
+    });
+    for (index, layer) in &layers {
+        let material = &mut scene.materials[*index];
+        // What is seen through lies over another layer that is painted, or is the cornea, which shows the iris itself.
+        if material.alpha.mode == AlphaMode::Blend {
+            let mode = if *layer == Layer::Cornea { AlphaMode::Opaque } else { AlphaMode::Mask };
+            material.alpha = Alpha { mode, ..Alpha::default() };
+        }
+        if let (Layer::Cornea, Some(white)) = (layer, white) {
+            material.base = white;
+        }
+        let iris_map = picture.filter(|_| !matches!(layer, Layer::Iris { .. }));
+        let iris_color = if iris_map.is_some() { color } else { [1.0; 3] };
+        material.eye = Some(Eye { dimensions, iris_map, iris_color, ..Eye::portrait() });
+        material.cast_shadow = Some(CastShadow { casts: false, ..CastShadow::default() });
+        material.double_sided = false;
+    }
+    as_painted(scene, &layers);
+}
+
+/// Gives eyes the measures that are painted: of the pupil, and where nothing but the picture has one, of the iris.
+fn as_painted(scene: &mut Scene, layers: &[(usize, Layer)]) {
+    // What is wrong with them the upload says.
+    let Ok(eyes) = Eyes::of(scene) else { return };
+    for (index, _) in layers {
+        let material = &scene.materials[*index];
+        let Some(eye) = material.eye else { continue };
+        let picture = eye.iris_map.or(material.base.texture);
+        let image = picture.and_then(|p| scene.images.get(scene.textures.get(p.texture)?.image));
+        let (Some(image), Some(row)) = (image, eyes.rows[*index].first()) else { continue };
+        let Some(painted) = Painted::of(image, row) else { continue };
+        let mut changed = Eye { pupil_drawn: painted.pupil, ..eye };
+        if let (None, Some(iris)) = (eye.iris_map, painted.iris) {
+            let radius = (eye.dimensions.iris_radius_mm * iris).clamp(2.0, 7.5);
+            changed.dimensions.iris_radius_mm = radius;
+            changed.dimensions.limbus_radius_mm = radius;
+        }
+        scene.materials[*index].eye = Some(changed);
+    }
+}
+
+/// Makes the pose at rest one with eyeballs, where an expression of the file has them.
+fn bring_forth(scene: &mut Scene) {
+    let Some(character) = &mut scene.character else { return };
+    let Some(expression) = character.expressions.iter_mut().find(|e| e.name == EYEBALLS) else { return };
+    for bind in std::mem::take(&mut expression.morphs) {
+        let weight = scene.nodes.get_mut(bind.node).and_then(|node| node.morph_weights.get_mut(bind.target));
+        if let Some(weight) = weight {
+            *weight = bind.weight;
+        }
+    }
+}
+
+/// Materials of eyeballs, and what each is.
+fn layers(scene: &Scene) -> Vec<(usize, Layer)> {
+    let named: BTreeSet<usize> =
+        [Role::Eye, Role::EyeWhite].into_iter().flat_map(|role| materials_of(scene, role)).collect();
+    let bones = EyeBone::of(scene);
+    let bodies: Vec<(usize, Primitive)> = bodies(scene, &named);
+    let of = |material: usize| bodies.iter().filter(move |(m, _)| *m == material).map(|(_, body)| (body, Mat4::IDENTITY));
+    let frames_of = |material: usize| EyeFrame::of(&of(material).collect::<Vec<_>>(), &bones).ok();
+    let balls: Vec<(usize, Vec<EyeFrame>)> = named.iter().filter_map(|m| Some((*m, frames_of(*m)?))).collect();
+    let frames: Vec<EyeFrame> = balls.iter().flat_map(|(_, frames)| frames.iter().copied()).collect();
+    let mut layers: Vec<(usize, Layer)> = balls.iter().map(|(material, _)| (*material, Layer::Ball)).collect();
+    for material in named.iter().filter(|m| balls.iter().all(|(ball, _)| ball != *m)) {
+        layers.extend(layer(of(*material).map(|(body, _)| body), &frames).map(|layer| (*material, layer)));
+    }
+    layers
+}
+
+/// What parts are that lie about eyeballs, where all of them do.
+fn layer<'a>(bodies: impl Iterator<Item = &'a Primitive>, frames: &[EyeFrame]) -> Option<Layer> {
+    let (mut sum, mut count, mut widest) = (0.0, 0, 0.0f32);
+    for position in bodies.flat_map(|body| &body.positions) {
+        let off = |f: &EyeFrame| (Vec3::from(*position) - f.centre) / f.radius;
+        let (frame, off) =
+            frames.iter().map(|f| (f, off(f))).min_by(|a, b| a.1.length_squared().total_cmp(&b.1.length_squared()))?;
+        let (ahead, far) = (off.dot(frame.axis), off.length());
+        if ahead < AHEAD || !(OF_EYE[0]..=OF_EYE[1]).contains(&far) {
+            return None;
+        }
+        widest = widest.max(off.reject_from_normalized(frame.axis).length());
+        (sum, count) = (sum + far, count + 1);
+    }
+    let mean = sum / count.max(1) as f32;
+    (count > 0).then_some(if mean > CORNEA { Layer::Cornea } else { Layer::Iris { radius: widest } })
+}
+
+/// Parts of some materials as they stand at rest.
+fn bodies(scene: &Scene, of: &BTreeSet<usize>) -> Vec<(usize, Primitive)> {
+    let rest = scene.rest_world_from_nodes();
+    let mut list = Vec::new();
+    for (node, mesh) in scene.mesh_nodes() {
+        let morph_weights = &scene.nodes[node].morph_weights;
+        let skin = scene.nodes[node].skin.and_then(|s| scene.skins.get(s));
+        let character_from_mesh = skin.map_or(rest[node], |skin| skin.matrix(&rest, 0));
+        for primitive in mesh.primitives.iter().filter(|p| of.contains(&p.material)) {
+            let positions = Part { primitive, character_from_mesh, morph_weights }.positions();
+            let positions = positions.into_iter().map(|p| p.to_array()).collect();
+            list.push((primitive.material, Primitive { positions, indices: primitive.indices.clone(), ..Primitive::default() }));
+        }
+    }
+    list
+}
