@@ -140,12 +140,12 @@ impl EyeFrame {
         let sphere = Sphere::through(samples).ok_or(NoEyeFrame::Flat)?;
         let area = |samples: &mut dyn Iterator<Item = &Sample>| samples.map(|s| s.area).sum::<f64>();
         let near = area(&mut samples.iter().filter(|s| sphere.height(s.at).abs() <= NEAR));
-        if near < COVERED * 4.0 * std::f64::consts::PI * sphere.radius.powi(2) {
-            return Err(NoEyeFrame::Flat);
-        }
         let round = (near / area(&mut samples.iter())) as f32;
         if round < ROUND {
             return Err(NoEyeFrame::NotRound(round));
+        }
+        if near < COVERED * 4.0 * std::f64::consts::PI * sphere.radius.powi(2) {
+            return Err(NoEyeFrame::Flat);
         }
         let distance = |bone: &&EyeBone| bone.position.as_dvec3().distance_squared(sphere.centre);
         let bone = bones.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));

@@ -116,11 +116,6 @@ impl Eyes {
         Ok(eyes)
     }
 
-    /// Whether a material shades any of them.
-    #[cfg(test)]
-    pub fn is_empty(&self) -> bool {
-        self.list.is_empty()
-    }
 
     fn add_balls(&mut self, scene: &Scene, parts: &[RestPart<'_>]) -> Result<(), EyeFault> {
         let of = |part: &RestPart<'_>| scene.materials.get(part.primitive.material)?.eye;

@@ -12,6 +12,9 @@ use crate::{Error, Result};
 /// Textures that WebGPU promises to one shader stage; 5 are read of the frame and 3 of the character at most.
 const MAX_TEXTURES: usize = 16 - 8;
 
+/// Sections that have the places of eyes in what goes from vertex to fragment.
+pub(super) const NOT_OF_EYES: &[&str] = &["skin", "face_shadow", "face_paint"];
+
 /// A texture that a material binds.
 #[derive(Clone, Debug)]
 pub(crate) struct Slot {
@@ -211,9 +214,7 @@ impl Composition {
 
     /// Refuses what a device with WebGPU's default limits cannot bind.
     pub fn check(&self, name: &str) -> Result<()> {
-        // They share places of what goes from vertex to fragment.
-        let apart = ["skin", "face_shadow", "face_paint"];
-        if let (true, Some(other)) = (self.needs("eye_vertex"), apart.into_iter().find(|key| self.has(key))) {
+        if let (true, Some(other)) = (self.needs("eye_vertex"), NOT_OF_EYES.iter().find(|key| self.has(key))) {
             let message = format!("has {other} beside an eye or iris; please give the eyes a material of their own");
             return Err(Error::Argument { what: format!("material {name:?}"), message });
         }

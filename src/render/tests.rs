@@ -11,7 +11,7 @@ use super::Output;
 use super::draw_list::surface_requests;
 use super::environment::{LEVELS, SIDE, SPLIT_SUM_SIDE};
 use super::layout::Layout;
-use super::material::{Composition, bytes};
+use super::material::{Composition, NOT_OF_EYES, bytes};
 use super::pass::{DEPTH_FORMAT, Mark, Picture, Sight, bangs_shadow, fibre, glow, prepass, shadow, velocity};
 use super::shaders::{Recipe, Shaders, file};
 use super::variants::Request;
@@ -164,17 +164,21 @@ fn every_section_alone_links_in_every_pass() {
 fn all_sections_that_go_together_link_in_every_pass() {
     let shaders = Shaders::new().expect("sections");
     let mut materials = Vec::new();
+    const EYES: &[&str] = &["eye", "eye_depth"];
     // Each model in turn, and each of two that exclude each other.
-    for without in [
-        ["gem", "diamond", "standard"],
-        ["gem", "shade_ramp", "standard"],
-        ["diamond", "fur_detail", "standard"],
-        ["gem", "transition", "standard"],
-        ["gem", "diamond", "toon"],
-        ["gem", "shade_ramp", "toon"],
-        ["diamond", "transition", "toon"],
+    for (without, or) in [
+        (["gem", "diamond", "standard"], EYES),
+        (["gem", "shade_ramp", "standard"], EYES),
+        (["diamond", "fur_detail", "standard"], EYES),
+        (["gem", "transition", "standard"], EYES),
+        (["gem", "diamond", "toon"], EYES),
+        (["gem", "shade_ramp", "toon"], EYES),
+        (["diamond", "transition", "toon"], EYES),
+        (["gem", "diamond", "standard"], NOT_OF_EYES),
+        (["gem", "shade_ramp", "toon"], NOT_OF_EYES),
     ] {
-        let kept: Vec<&About> = LISTED.iter().copied().filter(|a| !without.contains(&a.key)).collect();
+        let is_kept = |a: &&About| !without.contains(&a.key) && !or.contains(&a.key);
+        let kept: Vec<&About> = LISTED.iter().copied().filter(is_kept).collect();
         for mode in [AlphaMode::Opaque, AlphaMode::Mask, AlphaMode::Blend] {
             for is_whole in [false, true] {
                 let material = material_with(&kept, is_whole, mode);
@@ -236,7 +240,7 @@ fn every_section_takes_part_in_a_stage_or_has_a_pass() {
 #[test]
 fn what_binds_more_than_a_device_promises_names_its_sections() {
     let shaders = Shaders::new().expect("sections");
-    let all: Vec<&About> = LISTED.iter().copied().filter(|a| a.key != "standard").collect();
+    let all: Vec<&About> = LISTED.iter().copied().filter(|a| !["standard", "eye", "eye_depth"].contains(&a.key)).collect();
     let material = material_with(&all, true, AlphaMode::Opaque);
     let maps = face_maps();
     let error = Composition::new(&shaders, &surroundings(&material, &maps)).check("Everything").expect_err("too many");

@@ -193,6 +193,11 @@ impl Ray {
         (self.from - self.along * (self.from.z / self.along.z)).truncate()
     }
 
+    /// Whether it meets the ball, and no edge of it.
+    pub fn is_on_ball(&self) -> bool {
+        (self.from - self.along * self.from.dot(self.along)).length() < f64::from(BALL) - 0.6
+    }
+
     /// Where it meets the iris of an eye about the origin that looks to +z, by Snell's law at the cornea's sphere, radii of the
     /// iris; `None` beside its inner part, and within a fortieth of the limbus.
     pub fn on_iris(&self, of: &EyeDimensions) -> Option<DVec2> {
@@ -227,14 +232,14 @@ fn to_linear(code: u8) -> f32 {
     linear_from_srgb(f32::from(code) / 255.0)
 }
 
-/// How far two pictures differ, codes of 8 bits: in the mean of all pixels, and in that block of 4 x 4 where it is most.
+/// How far two pictures differ where both are covered whole, codes of 8 bits: in the mean of all pixels, and in that block of 4 x 4
+/// where it is most.
 pub fn difference(a: &Image, b: &Image) -> [f32; 2] {
-    let off: Vec<f32> = a
-        .pixels
-        .chunks_exact(4)
-        .zip(b.pixels.chunks_exact(4))
-        .map(|(a, b)| (0..4).map(|c| f32::from(a[c].abs_diff(b[c]))).sum::<f32>() / 3.0)
-        .collect();
+    let of = |(a, b): (&[u8], &[u8])| match (a[3], b[3]) {
+        (255, 255) => (0..3).map(|c| f32::from(a[c].abs_diff(b[c]))).sum::<f32>() / 3.0,
+        _ => 0.0,
+    };
+    let off: Vec<f32> = a.pixels.chunks_exact(4).zip(b.pixels.chunks_exact(4)).map(of).collect();
     let [columns, rows] = [a.width as usize / 4, a.height as usize / 4];
     let block = |i: usize| {
         let first = i / columns * 4 * a.width as usize + i % columns * 4;

@@ -184,7 +184,7 @@ fn sclera_veins(place: vec3f, rho: f32) -> f32 {
     }
     let corner = abs(place.x) / max(length(place.xy), 1e-3);
     let far = smoothstep(1.1, 2.0, rho);
-    return saturate(sum) * far * (0.3 + 0.7 * corner) + 0.25 * far * far * corner;
+    return saturate(saturate(sum) * far * (0.3 + 0.7 * corner) + 0.25 * far * far * corner);
 }
 
 // Share of a painted light at a place of the cornea, mm from its centre, eye space. `axes` are those of the eye and `screen` those of
@@ -211,12 +211,12 @@ fn catch_light(
 }
 
 // Where a ray from a place of the unit disc into the eye meets a bowl that is `depth` deep in the middle and has its rim there; what
-// lies outside stays. Unit: the disc's radius.
+// lies outside stays, and so does the rim where a view would look over it at the far wall. Unit: the disc's radius.
 fn bowl_place(q: vec2f, ray: vec3f, depth: f32) -> vec2f {
     let slope = ray.xy / max(-ray.z, LEAST_IRIS_SLOPE);
     // |q + slope d|² = 1 - d / depth.
     let a = dot(slope, slope);
-    let b = 2.0 * dot(q, slope) + 1.0 / max(depth, 1e-4);
+    let b = max(2.0 * dot(q, slope) + 1.0 / max(depth, 1e-4), 0.0);
     let c = max(1.0 - dot(q, q), 0.0);
     return q + slope * (2.0 * c / (b + sqrt(max(b * b + 4.0 * a * c, 1e-12))));
 }

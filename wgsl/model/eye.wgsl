@@ -21,6 +21,8 @@ import package::model::standard::physical_light;
 const PI: f32 = 3.14159265;
 // Half of the width over which white and iris meet, mm.
 const LIMBUS_EDGE: f32 = 0.12;
+// Of the wet line: it is hollow, and mirrors a light over some of its length.
+const WET_ROUGHNESS: f32 = 0.3;
 
 // What of an eye all lights ask for; directions in its space where nothing else is said.
 struct Seen {
@@ -129,13 +131,13 @@ fn eye_seen(s: Surface, place: vec3f) -> Seen {
         let upper = vec3f((*m).rows[first].w, (*m).rows[first + 1u].w, (*m).rows[first + 2u].x);
         let lower = (*m).rows[first + 2u].yzw;
         e.open = lid_shade(s.at.eye_face, upper, lower, (*m).lid_reach_rad, (*m).lid_shadow, (*m).lash_shadow);
-        e.wet = wet_line(s.at.eye_face, lower, (*m).wet_line_rad) * (1.0 - e.on_cornea);
+        e.wet = wet_line(s.at.eye_face, lower, (*m).wet_line_rad);
     }
     let smooth_normal = normalize(mix(e.ball, e.axes * cornea, e.on_cornea));
     let along_x = dpdx(smooth_normal);
     let along_y = dpdy(smooth_normal);
     e.normal = normalize(smooth_normal + e.axes[1] * e.wet);
-    let rough = mix(mix((*m).sclera_roughness, 0.06, e.wet), (*m).cornea_roughness, e.on_cornea);
+    let rough = mix(mix((*m).sclera_roughness, (*m).cornea_roughness, e.on_cornea), WET_ROUGHNESS, e.wet);
     e.alpha = sqrt(filtered_alpha2(pow(rough, 4.0), along_x, along_y));
     e.n_dot_v = max(dot(e.normal, s.view), 1e-3);
     e.f0 = vec3f(f0_of_ior((*m).dimensions_ior));

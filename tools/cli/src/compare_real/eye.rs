@@ -15,7 +15,7 @@ use zip::ZipArchive;
 
 use super::scorer::Scorer;
 use super::strands::array;
-use super::{Reference, Shot, described, drawn, write_npy};
+use super::{Reference, Shot, Window, described, drawn, write_npy};
 use crate::failure::Failure;
 
 /// Pixels of ours along a side of one of the reference.
@@ -106,7 +106,7 @@ fn shot(dir: &Path, of: &Reference, kind: Kind) -> Result<Shot, String> {
         [0.8, 0.76, 0.72]
     };
     wear(&mut scene, eye, white);
-    let mut shot = Shot::of(of, vec![scene], SCALE);
+    let mut shot = Shot { window: Window::BlackmanHarris, ..Shot::of(of, vec![scene], SCALE) };
     if of.light.is_none() {
         shot.lights.ambient = Ambient::uniform(LinearRgb::WHITE);
     }
@@ -197,7 +197,7 @@ fn caustic(gpu: &Gpu, dir: &Path, beam: &Beam) -> Result<Vec<[f32; 4]>, Failure>
             near: 0.001,
             matrices: None,
         };
-        drawn(gpu, Shot { scenes: vec![scene], scale: 1, size: [PIXELS; 2], camera, lights })
+        drawn(gpu, Shot { scenes: vec![scene], scale: 1, window: Window::Even, size: [PIXELS; 2], camera, lights })
     };
     Ok(gathered(&seen(true)?, &seen(false)?))
 }

@@ -82,9 +82,37 @@ struct Shot {
     scenes: Vec<Scene>,
     /// How many times as large.
     scale: u32,
+    window: Window,
     size: [u32; 2],
     camera: Camera,
     lights: Lights,
+}
+
+/// What texels of a larger picture count for in a pixel.
+#[derive(Clone, Copy)]
+enum Window {
+    /// The same.
+    Even,
+    /// Most in the middle, as the path tracer of the references has it: the window of Blackman and Harris over a pixel.
+    BlackmanHarris,
+}
+
+impl Window {
+    /// Of so many texels along a pixel; their sum is 1.
+    fn weights(self, count: u32) -> Vec<f64> {
+        let of = |i: u32| {
+            let turn = (f64::from(i) + 0.5) / f64::from(count) * std::f64::consts::TAU;
+            match self {
+                Self::Even => 1.0,
+                // Harris 1978, four terms.
+                Self::BlackmanHarris => {
+                    0.35875 - 0.48829 * turn.cos() + 0.14128 * (2.0 * turn).cos() - 0.01168 * (3.0 * turn).cos()
+                }
+            }
+        };
+        let sum: f64 = (0..count).map(of).sum();
+        (0..count).map(|i| of(i) / sum).collect()
+    }
 }
 
 impl Shot {
@@ -96,7 +124,7 @@ impl Shot {
             ambient: Ambient::uniform(LinearRgb::BLACK),
             ..Lights::default()
         };
-        Self { scenes, scale, size: [of.width, of.height], camera: (&of.camera).into(), lights }
+        Self { scenes, scale, window: Window::Even, size: [of.width, of.height], camera: (&of.camera).into(), lights }
     }
 }
 
@@ -275,7 +303,7 @@ fn described<T: serde::de::DeserializeOwned>(reference: &Path) -> Result<T, Fail
 
 /// Our picture of a reference: linear, premultiplied. It is drawn `scale` times as large.
 fn drawn(gpu: &Gpu, shot: Shot) -> Result<Vec<[f32; 4]>, Failure> {
-    let Shot { scenes, scale, size, camera, lights } = shot;
+    let Shot { scenes, scale, window, size, camera, lights } = shot;
     let output = Output { format: wgpu::TextureFormat::Rgba16Float, ..Output::default() };
     let renderer = Renderer::with_output(gpu, output)?;
     let mut actors = Vec::new();
@@ -301,21 +329,22 @@ fn drawn(gpu: &Gpu, shot: Shot) -> Result<Vec<[f32; 4]>, Failure> {
     renderer.prepare(&mut encoder, &mut stage)?;
     renderer.draw(&mut encoder, &stage, &view, &texture.create_view(&wgpu::TextureViewDescriptor::default()))?;
     gpu.queue.submit([encoder.finish()]);
-    Ok(averaged(&read_linear(gpu, &texture)?, size, scale))
+    Ok(averaged(&read_linear(gpu, &texture)?, size, &window.weights(scale)))
 }
 
-/// Means of squares of `scale` texels a side.
-fn averaged(texels: &[[f32; 4]], size: [u32; 2], scale: u32) -> Vec<[f32; 4]> {
-    let (width, height, scale) = ((size[0] / scale) as usize, (size[1] / scale) as usize, scale as usize);
+/// Means of squares of texels, which count by the product of the weights of their row and column.
+fn averaged(texels: &[[f32; 4]], size: [u32; 2], weights: &[f64]) -> Vec<[f32; 4]> {
+    let scale = weights.len();
+    let (width, height) = (size[0] as usize / scale, size[1] as usize / scale);
     let mean = |x: usize, y: usize| {
         let mut sum = [0f64; 4];
         for dy in 0..scale {
             let first = (y * scale + dy) * width * scale + x * scale;
-            for texel in &texels[first..first + scale] {
-                sum.iter_mut().zip(texel).for_each(|(sum, x)| *sum += f64::from(*x));
+            for (texel, weight) in texels[first..first + scale].iter().zip(weights) {
+                sum.iter_mut().zip(texel).for_each(|(sum, x)| *sum += f64::from(*x) * weight * weights[dy]);
             }
         }
-        sum.map(|s| (s / (scale * scale) as f64) as f32)
+        sum.map(|s| s as f32)
     };
     (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| mean(x, y)).collect()
 }
@@ -347,6 +376,9 @@ mod tests {
     #[test]
     fn pictures_are_averaged_by_squares() {
         let texels: Vec<[f32; 4]> = (0..8u8).map(|i| [f32::from(i); 4]).collect();
-        assert_eq!(averaged(&texels, [4, 2], 2), [[2.5; 4], [4.5; 4]]);
+        assert_eq!(averaged(&texels, [4, 2], &Window::Even.weights(2)), [[2.5; 4], [4.5; 4]]);
+        let weights = Window::BlackmanHarris.weights(8);
+        assert!((weights.iter().sum::<f64>() - 1.0).abs() < 1e-12);
+        assert!(weights[3] > 30.0 * weights[0] && weights[3] == weights[4], "{weights:?}");
     }
 }
