@@ -2,18 +2,18 @@
 
 mod dimensions;
 mod frame;
-mod pupil;
 mod lids;
 mod painted;
 mod placed;
 mod plane;
+mod pupil;
 mod sphere;
 
 pub use dimensions::EyeDimensions;
 pub use frame::{EyeBone, EyeFrame, NoEyeFrame};
-pub use pupil::PupilReflex;
 pub use lids::Lids;
 pub use placed::{EyeRow, MOST_EYES};
+pub use pupil::PupilReflex;
 
 pub(crate) use painted::Painted;
 pub(crate) use placed::{EyeVertex, Eyes};

@@ -30,7 +30,8 @@ impl Painted {
             rings[low..high].iter().sum::<f32>() / (high - low) as f32
         };
         let step = |at: &usize| smooth(at + window) - smooth(at - window);
-        let ring_of = |share: f32| ((share / FARTHEST * RINGS as f32) as usize).clamp(2 * window, RINGS - 1 - 2 * window);
+        let ring_of =
+            |share: f32| ((share / FARTHEST * RINGS as f32) as usize).clamp(2 * window, RINGS - 1 - 2 * window);
         let edge = (ring_of(0.55)..ring_of(1.45)).max_by(|a, b| step(a).total_cmp(&step(b)));
         let iris = edge.filter(|at| step(at) > EDGE).map(radius);
         let whole = iris.unwrap_or(1.0);

@@ -116,7 +116,6 @@ impl Eyes {
         Ok(eyes)
     }
 
-
     fn add_balls(&mut self, scene: &Scene, parts: &[RestPart<'_>]) -> Result<(), EyeFault> {
         let of = |part: &RestPart<'_>| scene.materials.get(part.primitive.material)?.eye;
         for (index, material) in scene.materials.iter().enumerate() {
@@ -132,7 +131,11 @@ impl Eyes {
         // Which of several is not sound, each says alone.
         let frames = EyeFrame::of(&placed, &bones).map_err(|why| {
             let alone = |body: &Primitive| EyeFrame::of(&[(body, Mat4::IDENTITY)], &bones).err() == Some(why);
-            let of = own.iter().zip(&bodies).find(|(_, body)| alone(body)).map_or(first, |(part, _)| part.primitive.material);
+            let of = own
+                .iter()
+                .zip(&bodies)
+                .find(|(_, body)| alone(body))
+                .map_or(first, |(part, _)| part.primitive.material);
             (of, "eye", why.to_string())
         })?;
         if frames.len() > MOST_EYES {
@@ -143,8 +146,7 @@ impl Eyes {
             frames.iter().enumerate().map(|(number, frame)| Seen { of_eye: unit(frame), number }).collect();
         self.take(&own, &seen, frames.iter().map(|f| (f.centre, f.axis, f.up)));
         let hiding = |frame: &EyeFrame| hiding(scene, parts, frame);
-        let lids: Vec<Option<Lids>> =
-            frames.iter().map(|f| lids(&hiding(f), f.centre, f.radius, f.axis)).collect();
+        let lids: Vec<Option<Lids>> = frames.iter().map(|f| lids(&hiding(f), f.centre, f.radius, f.axis)).collect();
         for (index, material) in scene.materials.iter().enumerate() {
             let Some(eye) = material.eye else { continue };
             let picture = eye.iris_map.or(material.base.texture);
@@ -188,13 +190,15 @@ impl Eyes {
                 );
                 return Err((index, "eye_depth", message));
             }
-            let seen: Vec<Seen> = (first..).zip(&planes).map(|(number, p)| Seen { of_eye: p.disc_from_mesh(), number }).collect();
+            let seen: Vec<Seen> =
+                (first..).zip(&planes).map(|(number, p)| Seen { of_eye: p.disc_from_mesh(), number }).collect();
             self.take(&own, &seen, planes.iter().map(|p| (p.centre, p.axis, p.up)));
             // Rows go by the number of the eye.
             self.rows[index] = vec![EyeRow::default(); first];
             for (seen, plane) in seen.iter().zip(&planes) {
                 let uv = flat_uv(&own, &seen.of_eye).ok_or_else(|| {
-                    let message = "needs texture coordinates that lie evenly over each iris; the part has none, or they are bent";
+                    let message =
+                        "needs texture coordinates that lie evenly over each iris; the part has none, or they are bent";
                     (index, "eye_depth", message.to_owned())
                 })?;
                 self.rows[index].push(EyeRow { uv, lids: None, aspect: plane.half.x / plane.half.y });
@@ -204,12 +208,7 @@ impl Eyes {
     }
 
     /// Gives each vertex of parts to the eye that is nearest, and eyes to what moves them.
-    fn take(
-        &mut self,
-        parts: &[&RestPart<'_>],
-        seen: &[Seen],
-        frames: impl Iterator<Item = (Vec3, Vec3, Vec3)>,
-    ) {
+    fn take(&mut self, parts: &[&RestPart<'_>], seen: &[Seen], frames: impl Iterator<Item = (Vec3, Vec3, Vec3)>) {
         // By eye: vertices by part and joint.
         let mut moving: Vec<HashMap<(u32, u16), usize>> = vec![HashMap::new(); seen.len()];
         for part in parts {
@@ -375,16 +374,20 @@ fn affine(points: &[(Vec2, Vec2)]) -> Option<([[f32; 3]; 2], f64)> {
 
 fn of_plane(why: NoEyeFrame) -> String {
     match why {
-        NoEyeFrame::NoFront => "is on a mesh that looks everywhere; expected the flat part that an iris is drawn on (on eyeballs \
+        NoEyeFrame::NoFront => {
+            "is on a mesh that looks everywhere; expected the flat part that an iris is drawn on (on eyeballs \
                                 the section eye stands)"
-            .to_owned(),
+                .to_owned()
+        }
         other => other.to_string(),
     }
 }
 
 fn message_of(error: crate::Error) -> String {
     match error {
-        crate::Error::Argument { what, message } => format!("{} {message}", what.rsplit(": ").next().unwrap_or_default()),
+        crate::Error::Argument { what, message } => {
+            format!("{} {message}", what.rsplit(": ").next().unwrap_or_default())
+        }
         other => other.to_string(),
     }
 }

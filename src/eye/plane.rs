@@ -94,8 +94,7 @@ mod tests {
         let (left, right) = (Vec3::new(0.03, 1.4, 0.05), Vec3::new(-0.03, 1.4, 0.05));
         let half = Vec2::new(0.009, 0.012);
         let [a, b] = [left, right].map(|at| card(at, half));
-        let planes =
-            IrisPlane::of(&[(&b, Mat4::IDENTITY), (&a, Mat4::IDENTITY)], &[]).expect("two planes");
+        let planes = IrisPlane::of(&[(&b, Mat4::IDENTITY), (&a, Mat4::IDENTITY)], &[]).expect("two planes");
         assert_eq!(planes.len(), 2);
         for (plane, at) in planes.iter().zip([left, right]) {
             assert!(plane.centre.distance(at) < 1e-6, "{plane:?}");

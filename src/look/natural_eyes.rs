@@ -54,7 +54,11 @@ pub(super) fn apply(scene: &mut Scene) {
         let material = &mut scene.materials[*index];
         // What is seen through lies over another layer that is painted, or is the cornea, which shows the iris itself.
         if material.alpha.mode == AlphaMode::Blend {
-            let mode = if *layer == Layer::Cornea { AlphaMode::Opaque } else { AlphaMode::Mask };
+            let mode = if *layer == Layer::Cornea {
+                AlphaMode::Opaque
+            } else {
+                AlphaMode::Mask
+            };
             material.alpha = Alpha { mode, ..Alpha::default() };
         }
         if let (Layer::Cornea, Some(white)) = (layer, white) {
@@ -108,7 +112,8 @@ fn layers(scene: &Scene) -> Vec<(usize, Layer)> {
         [Role::Eye, Role::EyeWhite].into_iter().flat_map(|role| materials_of(scene, role)).collect();
     let bones = EyeBone::of(scene);
     let bodies: Vec<(usize, Primitive)> = bodies(scene, &named);
-    let of = |material: usize| bodies.iter().filter(move |(m, _)| *m == material).map(|(_, body)| (body, Mat4::IDENTITY));
+    let of =
+        |material: usize| bodies.iter().filter(move |(m, _)| *m == material).map(|(_, body)| (body, Mat4::IDENTITY));
     let frames_of = |material: usize| EyeFrame::of(&of(material).collect::<Vec<_>>(), &bones).ok();
     let balls: Vec<(usize, Vec<EyeFrame>)> = named.iter().filter_map(|m| Some((*m, frames_of(*m)?))).collect();
     let frames: Vec<EyeFrame> = balls.iter().flat_map(|(_, frames)| frames.iter().copied()).collect();
@@ -134,7 +139,11 @@ fn layer<'a>(bodies: impl Iterator<Item = &'a Primitive>, frames: &[EyeFrame]) -
         (sum, count) = (sum + far, count + 1);
     }
     let mean = sum / count.max(1) as f32;
-    (count > 0).then_some(if mean > CORNEA { Layer::Cornea } else { Layer::Iris { radius: widest } })
+    (count > 0).then_some(if mean > CORNEA {
+        Layer::Cornea
+    } else {
+        Layer::Iris { radius: widest }
+    })
 }
 
 /// Parts of some materials as they stand at rest.
@@ -148,7 +157,10 @@ fn bodies(scene: &Scene, of: &BTreeSet<usize>) -> Vec<(usize, Primitive)> {
         for primitive in mesh.primitives.iter().filter(|p| of.contains(&p.material)) {
             let positions = Part { primitive, character_from_mesh, morph_weights }.positions();
             let positions = positions.into_iter().map(|p| p.to_array()).collect();
-            list.push((primitive.material, Primitive { positions, indices: primitive.indices.clone(), ..Primitive::default() }));
+            list.push((
+                primitive.material,
+                Primitive { positions, indices: primitive.indices.clone(), ..Primitive::default() },
+            ));
         }
     }
     list

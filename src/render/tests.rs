@@ -240,7 +240,8 @@ fn every_section_takes_part_in_a_stage_or_has_a_pass() {
 #[test]
 fn what_binds_more_than_a_device_promises_names_its_sections() {
     let shaders = Shaders::new().expect("sections");
-    let all: Vec<&About> = LISTED.iter().copied().filter(|a| !["standard", "eye", "eye_depth"].contains(&a.key)).collect();
+    let all: Vec<&About> =
+        LISTED.iter().copied().filter(|a| !["standard", "eye", "eye_depth"].contains(&a.key)).collect();
     let material = material_with(&all, true, AlphaMode::Opaque);
     let maps = face_maps();
     let error = Composition::new(&shaders, &surroundings(&material, &maps)).check("Everything").expect_err("too many");

@@ -14,6 +14,9 @@ pub(super) const NAME: &str = "eyes";
 const VIEWS: [f32; 5] = [-60.0, -30.0, 0.0, 30.0, 60.0];
 const LIGHTS: [f32; 5] = [-75.0, -40.0, 0.0, 40.0, 75.0];
 
+/// Radius of the pupil that is painted on the built-in character, with its soft edge, share of the iris'.
+const PAINTED: f32 = 0.44;
+
 const LEFT: Camera = Camera::Eyes { both: false, yaw: 0.0 };
 
 /// Eyes behind a cornea: view, pupil, light on the iris, limbus, painted lights.
@@ -100,15 +103,17 @@ pub(super) fn drawn() -> Sheet {
         ("heart", EyeDepth::heart()),
         ("star", EyeDepth::star()),
     ];
-    // As large as she has it painted.
+    let shape =
+        |(name, depth): (&str, EyeDepth)| iris(name.to_owned(), Some(EyeDepth { pupil_drawn: PAINTED, ..depth }));
     let scaled = |pupil_scale: f32| {
-        iris(format!("pupil_scale {pupil_scale}"), Some(EyeDepth { pupil_drawn: 0.4, pupil_scale, ..deep }))
+        iris(format!("pupil_scale {pupil_scale}"), Some(EyeDepth { pupil_drawn: PAINTED, pupil_scale, ..deep }))
     };
-    let cards = |name: &'static str, card: Option<EyeCard>| {
+    let both = |name: &'static str, depth: Option<EyeDepth>, card: Option<EyeCard>| {
         let panel = move |yaw: f32| Panel {
             camera: Camera::Eyes { both: true, yaw },
             aspect: 2.0,
             ..changed(format!("{name}, camera {yaw:.0}\u{b0}"), move |scene| {
+                each_material(scene, "EyeIris", |m| m.eye_depth = depth);
                 each_material(scene, "EyeHighlight", |m| m.eye_card = card);
             })
         };
@@ -119,15 +124,17 @@ pub(super) fn drawn() -> Sheet {
         title: "Drawn eyes with depth",
         caption: "The drawn iris flat, and hollow behind a cornea (eye_depth), from the right to the left; light that gathers below \
                   (from_below) or away from the light (follow_light); shapes of the pupil (pupil_shape) and its size \
-                  (pupil_drawn, pupil_scale); lights that stay where they are drawn, and that move with the viewer (eye_card).",
+                  (pupil_drawn, pupil_scale); both eyes with lights that stay where they are drawn, and that move with the viewer \
+                  (eye_card), flat and deep.",
         rows: vec![
             view("flat", None),
             view("deep", Some(deep)),
             row([0.0, 0.6, 1.0].map(below).into_iter().chain([-60.0, 60.0].map(following)).collect()),
-            row(shapes.map(|(name, depth)| iris(name.to_owned(), Some(depth))).into()),
+            row(shapes.map(shape).into()),
             row([0.6, 1.0, 1.5].map(scaled).into()),
-            cards("eye_card off", None),
-            cards("eye_card on", Some(EyeCard::default())),
+            both("flat", None, None),
+            both("eye_card", None, Some(EyeCard::default())),
+            both("deep, eye_card", Some(deep), Some(EyeCard::default())),
         ],
     }
 }
