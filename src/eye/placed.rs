@@ -328,7 +328,7 @@ fn iris_uv(
         Some((_, (_, off))) if off > BENT => Err(format!(
             "the picture does not lie evenly over the front of the eye (it is {:.0} % of the iris off in the mean; a ball wrapped by \
              latitude?); please give the iris a picture of its own, whose square is drawn round it",
-            off * 100.0
+            (off * 100.0).min(100.0)
         )),
         largest => Ok(largest.map(|(_, (uv, _))| uv)),
     }

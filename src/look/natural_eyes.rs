@@ -50,6 +50,12 @@ pub(super) fn apply(scene: &mut Scene) {
         let [r, g, b, _] = scene.materials[iris].base.color;
         [r, g, b]
     });
+    // Portraits of drawn characters have painted lights; on a real head they would be stickers.
+    let preset = if scene.character.is_some() {
+        Eye::portrait()
+    } else {
+        Eye { veins: 0.0, ..Eye::human() }
+    };
     for (index, layer) in &layers {
         let material = &mut scene.materials[*index];
         // What is seen through lies over another layer that is painted, or is the cornea, which shows the iris itself.
@@ -66,7 +72,7 @@ pub(super) fn apply(scene: &mut Scene) {
         }
         let iris_map = picture.filter(|_| !matches!(layer, Layer::Iris { .. }));
         let iris_color = if iris_map.is_some() { color } else { [1.0; 3] };
-        material.eye = Some(Eye { dimensions, iris_map, iris_color, ..Eye::portrait() });
+        material.eye = Some(Eye { dimensions, iris_map, iris_color, ..preset });
         material.cast_shadow = Some(CastShadow { casts: false, ..CastShadow::default() });
         material.double_sided = false;
     }

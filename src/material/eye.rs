@@ -7,7 +7,7 @@ use crate::skin::DiffusionProfile;
 
 crate::part! {
     /// A light that is painted into an eye: where the cornea would mirror its direction, as large and as round from wherever it is
-    /// seen.
+    /// seen; from 45 degrees to the side on it shrinks with the iris.
     #[derive(Copy)]
     CatchLight {
         /// Strength, in light of strength 1; 0 for none.
@@ -82,11 +82,11 @@ crate::section! {
         /// Colour that they multiply the white by, linear.
         vein_color: [f32; 3] = [0.72, 0.2, 0.16], in 0.0..=1.0;
         /// How dark the shade of the lids is, 0 to 1. Their edges are found at the upload, of the pose at rest.
-        lid_shadow: f32 = 0.4, in 0.0..=1.0;
+        lid_shadow: f32 = 0.3, in 0.0..=1.0;
         /// How far it reaches over the ball, radians.
         lid_reach_rad: f32 = 0.35, in 0.01..=1.6;
         /// The same of lashes, below the upper lid alone.
-        lash_shadow: f32 = 0.25, in 0.0..=1.0;
+        lash_shadow: f32 = 0.15, in 0.0..=1.0;
         /// Width of the wet line along the lower lid, radians over the ball; 0 for none.
         wet_line_rad: f32 = 0.05, in 0.0..=0.5;
         /// Painted lights.
@@ -113,7 +113,7 @@ const WINDOW: CatchLight = CatchLight {
     within: 0.6,
 };
 const BELOW: CatchLight =
-    CatchLight { strength: 0.12, half: [0.08, 0.08], round: 1.0, from_rad: [0.7, -0.7], follow: 0.1, within: 0.6 };
+    CatchLight { strength: 0.25, half: [0.07, 0.07], round: 1.0, from_rad: [0.7, -0.7], follow: 0.1, within: 0.6 };
 
 impl Section for Eye {
     fn put(&self, gpu: &mut Block<'_>, of: &Surroundings<'_>) {

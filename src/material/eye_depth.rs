@@ -44,7 +44,7 @@ crate::section! {
     }
     {
         /// Depth of the middle of the iris behind its rim, share of its half width; 0 leaves it flat.
-        depth: f32 = 0.45, in 0.0..=2.0;
+        depth: f32 = 0.3, in 0.0..=2.0;
         /// Slope of the cornea at the rim.
         bulge: f32 = 0.5, in 0.0..=2.0;
         /// Index of refraction; 1 refracts nothing.
@@ -73,7 +73,7 @@ crate::section! {
     }
     presets {
         /// Deep and lit from below.
-        deep { depth: 0.5, from_below: 0.6 }
+        deep { depth: 0.4, from_below: 0.6 }
         /// A cat's.
         slit { pupil_shape: PupilShape::Slit }
         /// In love.

@@ -94,8 +94,10 @@ pub(crate) fn out_of_range(part: &mut dyn Part) -> Option<(String, String)> {
     let mut found = None;
     each_number(part, &mut |path, field, [low, high], value| {
         if !(low..=high).contains(&value) && found.is_none() {
-            found =
-                Some((path.join("."), format!("{} is {value}; its range is {}", field.name, shown_range(low, high))));
+            found = Some((
+                path.join("."),
+                format!("{} is {}; its range is {}", field.name, value as f32, shown_range(low, high)),
+            ));
         }
         value
     });

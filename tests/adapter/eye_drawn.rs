@@ -135,11 +135,12 @@ fn dark_middle(gpu: &Lent, of: &Scene, yaw: f32) -> DVec2 {
 fn the_middle_of_a_picture_moves_however_it_lies() {
     let gpu = gpu();
     let dot = |q: DVec2| if q.length() < 0.15 { [0, 0, 0, 255] } else { [255; 4] };
-    let layouts: [(&str, fn([f32; 2]) -> [f32; 2]); 4] = [
-        ("as it is", |uv| uv),
-        ("mirrored", |[u, v]| [1.0 - u, v]),
-        ("turned", |[u, v]| [v, 1.0 - u]),
-        ("a tile", |[u, v]| [0.25 + 0.5 * u, 0.25 + 0.5 * v]),
+    // What u and v are, by u, v and 1 of the plain square.
+    let layouts = [
+        ("as it is", [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]),
+        ("mirrored", [[-1.0, 0.0, 1.0], [0.0, 1.0, 0.0]]),
+        ("turned", [[0.0, 1.0, 0.0], [-1.0, 0.0, 1.0]]),
+        ("a tile", [[0.5, 0.0, 0.25], [0.0, 0.5, 0.25]]),
     ];
     for yaw in [35.0, -50.0] {
         let of = EyeDepth::default();
@@ -147,7 +148,7 @@ fn the_middle_of_a_picture_moves_however_it_lies() {
         let radius = |name| if name == "a tile" { 0.3 } else { 0.15 };
         for (name, layout) in layouts {
             let mut part = card();
-            part.uvs[0].iter_mut().for_each(|uv| *uv = layout(*uv));
+            part.uvs[0].iter_mut().for_each(|uv| *uv = layout.map(|[u, v, one]: [f32; 3]| u * uv[0] + v * uv[1] + one));
             let found = dark_middle(&gpu, &pictured(part, Some(of), dot), yaw);
             let seen = rays(&shot).into_iter().map(|ray| on_bowl(&ray, &of));
             let is_dot = |q: Option<DVec2>| q.is_some_and(|q| q.length() < radius(name));

@@ -203,7 +203,9 @@ fn catch_light(
     let flat = middle * radii.y;
     let on = vec3f(flat, sqrt(max(radii.x * radii.x - dot(flat, flat), 0.0)));
     let away = (axes * (entry - on)) * screen;
-    let share = abs(away.xy) / (max(half_size, vec2f(1e-3)) * radii.y);
+    // From far aside it would hide the iris, which is narrow there.
+    let aside = mix(0.5, 1.0, smoothstep(0.2, 0.7, dot(axes[2], screen[2])));
+    let share = abs(away.xy) / (max(half_size * aside, vec2f(1e-3)) * radii.y);
     let power = mix(6.0, 2.0, shape.x);
     let round = pow(pow(max(share.x, 1e-4), power) + pow(max(share.y, 1e-4), power), 1.0 / power);
     let edge = clamp(fwidth(round), 0.02, 0.5);

@@ -186,7 +186,8 @@ fn eye_model(s: Surface) -> Shaded {
     // The shadow map knows the lids as well.
     let arrives = l.own_lit * sqrt(e.open);
     var light = mix(sclera * sclera_light(e, frame.to_light), iris * iris_light(e, frame.to_light * e.axes), e.on_cornea);
-    let gaze_gi = environment_irradiance(normalize(mix(e.ball, e.axes[2], e.on_cornea)));
+    // Light goes about in the whole of the white.
+    let gaze_gi = environment_irradiance(normalize(mix(e.ball, e.axes[2], max(e.on_cornea, 0.5 * (*m).scatter))));
     // What is mirrored does not come out.
     let brdf = environment_brdf(e.n_dot_v, sqrt(e.alpha));
     let mirrored = (e.f0 * brdf.x + brdf.y) * (*m).specular_strength;

@@ -30,7 +30,7 @@ fn view_rays_follow_their_vectors() {
         // A place of the mesh below or above the cornea on the same ray.
         write3(out + 9u, cornea_normal(p - 0.4 * v, v, p.z - radius * n.z, radius));
         write3(out + 12u, cornea_normal(p + 0.8 * v, v, p.z - radius * n.z, radius));";
-    for (i, (case, found)) in list.iter().zip(run(&["eye"], body, &rows, 15)).enumerate() {
+    for (i, (case, found)) in list.iter().zip(run(&["noise", "eye"], body, &rows, 15)).enumerate() {
         assert_close("refracted", i, &found[..3], &numbers(case, &["refracted"]), 2e-6);
         assert_close("place, mm", i, &found[3..5], &numbers(case, &["hit"])[..2], 1e-4);
         assert_close("rho", i, &found[5..6], &numbers(case, &["rho"]), 2e-5);
@@ -53,7 +53,7 @@ fn pupils_follow_their_vectors() {
         let rho = input[base]; let drawn = input[base + 1u]; let now = input[base + 2u];
         output[out] = pupil_scaled(rho, drawn, now);
         output[out + 1u] = length(pupil_place(rho * vec2f(0.6, -0.8), drawn, now));";
-    for (i, (case, found)) in list.iter().zip(run(&["eye"], body, &rows, 2)).enumerate() {
+    for (i, (case, found)) in list.iter().zip(run(&["noise", "eye"], body, &rows, 2)).enumerate() {
         let expected = numbers(case, &["rho_tex"])[0];
         assert_close("pupil", i, &found, &[expected; 2], 1e-6);
     }
@@ -65,7 +65,7 @@ fn the_limbus_follows_its_vectors() {
     let list = cases(&file, "limbus");
     let rows: Vec<Vec<f32>> = list.iter().map(|c| numbers(c, &["rho", "width", "dark"])).collect();
     let body = "output[out] = limbus_shade(input[base], input[base + 1u], input[base + 2u]);";
-    for (i, (case, found)) in list.iter().zip(run(&["eye"], body, &rows, 1)).enumerate() {
+    for (i, (case, found)) in list.iter().zip(run(&["noise", "eye"], body, &rows, 1)).enumerate() {
         assert_close("limbus", i, &found, &numbers(case, &["value"]), 1e-5);
     }
 }
@@ -79,7 +79,7 @@ fn slopes_of_light_follow_their_vectors() {
         let light = -cornea_refraction(input3(base), vec3f(0.0, 0.0, 1.0), 1.376);
         write3(out, light);
         output[out + 3u] = caustic_slope(vec2f(input[base + 3u], input[base + 4u]), light.xy, input[base + 5u]);";
-    for (i, (case, found)) in list.iter().zip(run(&["eye"], body, &rows, 4)).enumerate() {
+    for (i, (case, found)) in list.iter().zip(run(&["noise", "eye"], body, &rows, 4)).enumerate() {
         assert_close("refracted light", i, &found[..3], &numbers(case, &["l_in"]), 2e-6);
         assert_close("slope of light", i, &found[3..], &numbers(case, &["value"]), 2e-6);
     }
@@ -117,7 +117,7 @@ fn refraction_is_snells() {
         let d = cornea_refraction(v, n, input[base + 6u]);
         write3(out, cross(n, d) * max(input[base + 6u], 1.0) + cross(n, v));
         write3(out + 3u, vec3f(length(d) - 1.0, max(dot(n, d), 0.0), select(0.0, length(d + v), input[base + 6u] <= 1.0)));";
-    for (i, found) in run(&["eye"], body, &rows, 6).iter().enumerate() {
+    for (i, found) in run(&["noise", "eye"], body, &rows, 6).iter().enumerate() {
         assert_close("Snell's law, length, side, straight", i, found, &[0.0; 6], 3e-6);
     }
 }
@@ -133,7 +133,7 @@ fn a_cornea_magnifies() {
          output[out] = input[base] / iris_place(p, cornea_refraction(v, n, {IOR}), {IRIS_Z}).x;
          output[out + 1u] = input[base] / iris_place(p, cornea_refraction(v, n, 1.0), {IRIS_Z}).x;"
     );
-    for (row, found) in rows.iter().zip(run(&["eye"], &body, &rows, 2)) {
+    for (row, found) in rows.iter().zip(run(&["noise", "eye"], &body, &rows, 2)) {
         println!("{} mm from the axis: {}", row[0], found[0]);
         assert!((1.11..=1.13).contains(&found[0]) && (found[1] - 1.0).abs() < 1e-5, "{row:?}: {found:?}");
     }
@@ -150,7 +150,7 @@ fn pupils_scale_and_the_limbus_stays() {
                 output[out + 1u] = pupil_scaled(input[base + 2u], input[base + 1u], input[base + 2u]);
                 let q = pupil_place(vec2f(0.6, -0.8) * input[base], input[base + 1u], input[base + 2u]);
                 output[out + 2u] = dot(q, vec2f(0.8, 0.6));";
-            let found = run(&["eye"], body, &rows, 3);
+            let found = run(&["noise", "eye"], body, &rows, 3);
             assert!(found.windows(2).all(|w| w[0][0] <= w[1][0]), "{drawn} {now}");
             assert!(found[0][0] == 0.0 && (found[400][0] - 1.0).abs() < 1e-6, "{drawn} {now}: {:?}", found[400]);
             assert!(found.iter().all(|f| f[2].abs() < 1e-6));
@@ -177,7 +177,7 @@ fn slopes_of_light_have_mean_one() {
         output[out] = sum / 4096.0;
         output[out + 1u] = caustic_slope(-normalize(light), light, 1.2);
         output[out + 2u] = caustic_slope(normalize(light), light, 1.2);";
-    for (row, found) in rows.iter().zip(run(&["eye"], body, &rows, 3)) {
+    for (row, found) in rows.iter().zip(run(&["noise", "eye"], body, &rows, 3)) {
         assert!((found[0] - 1.0).abs() < 1e-4 && found[1] > 1.0 && found[2] < 1.0, "{row:?}: {found:?}");
     }
 }
@@ -235,7 +235,7 @@ fn light_on_the_iris_is_what_rays_bring() {
              }}
              output[out] = sum / 64.0;"
         );
-        let found = run(&["eye"], &body, &rows, 1);
+        let found = run(&["noise", "eye"], &body, &rows, 1);
         let whole = |i: &usize| (corner(*i) + 0.5 * cell).length() + 0.71 * cell < IRIS_RADIUS;
         let traced = traced(degrees, CELLS);
         let pairs: Vec<[f64; 2]> =
@@ -265,7 +265,7 @@ fn a_hollow_iris_faces_its_axis() {
         output[out + 1u] = dot(rim.xy, vec2f(-0.6, 0.8)) / rim.z;
         output[out + 2u] = max(abs(length(near) - 1.0), abs(length(rim) - 1.0));
         output[out + 3u] = iris_normal(vec2f(0.0), input[base]).z;";
-    for (i, (row, found)) in rows.iter().zip(run(&["eye"], body, &rows, 4)).enumerate() {
+    for (i, (row, found)) in rows.iter().zip(run(&["noise", "eye"], body, &rows, 4)).enumerate() {
         let slope = row[0].max(0.0);
         assert_close("slope of the iris", i, &found, &[0.5 * slope, slope, 0.0, 1.0], 1e-6);
     }
@@ -296,7 +296,7 @@ fn eyes_are_finite_everywhere() {
         write3(out + 9u, vec3f(t, limbus_shade(x, x, x)));
         write3(out + 12u, iris_normal(q, x));
         write3(out + 15u, vec3f(caustic_slope(q, d.xy, x), iris_irradiance(p, v, 5.3474, radius, 10.4494, ior), 0.0));";
-    for (row, found) in rows.iter().zip(run(&["eye"], body, &rows, 18)) {
+    for (row, found) in rows.iter().zip(run(&["noise", "eye"], body, &rows, 18)) {
         assert!(found.iter().all(|f| f.is_finite()), "{row:?}: {found:?}");
         let length = |v: &[f32]| v.iter().map(|x| x * x).sum::<f32>().sqrt();
         assert!(length(&found[6..8]) < 1.0 + 1e-5 && length(&found[9..11]) < 1.0 + 1e-5, "{row:?}: {found:?}");
