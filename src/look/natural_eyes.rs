@@ -17,6 +17,9 @@ const OF_EYE: [f32; 2] = [0.6, 1.35];
 const AHEAD: f32 = 0.5;
 /// Radius from which on a part is the cornea.
 const CORNEA: f32 = 0.96;
+/// Radius from which on a ball is that of a drawn character, metres, and the iris that it has, share of the radius.
+const LARGE_M: f32 = 0.018;
+const DRAWN_IRIS: f32 = 0.6;
 
 /// What a material is of an eye.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,18 +36,17 @@ enum Layer {
 /// Gives materials of eyeballs an [`Eye`]; drawn eyes stay as they are. A character that has both shows its eyeballs.
 pub(super) fn apply(scene: &mut Scene) {
     bring_forth(scene);
-    let layers = layers(scene);
+    let Layers { list: layers, ball_m } = layers(scene);
     let find = |wanted: fn(&Layer) -> bool| layers.iter().find(|(_, layer)| wanted(layer)).map(|(index, _)| *index);
     let (ball, iris) = (find(|l| *l == Layer::Ball), find(|l| matches!(l, Layer::Iris { .. })));
     let white = ball.map(|ball| scene.materials[ball].base);
-    let radius = layers.iter().find_map(|(_, layer)| match layer {
+    let share = layers.iter().find_map(|(_, layer)| match layer {
         Layer::Iris { radius } => Some(*radius),
         _ => None,
     });
-    let human = EyeDimensions::default();
-    let limbus_radius_mm =
-        radius.map_or(human.limbus_radius_mm, |share| (share * human.eyeball_radius_mm).clamp(2.0, 7.5));
-    let dimensions = EyeDimensions { limbus_radius_mm, iris_radius_mm: limbus_radius_mm, ..human };
+    // Irises of drawn characters are as wide as their balls are large.
+    let drawn = (ball_m > LARGE_M).then_some(DRAWN_IRIS);
+    let dimensions = share.into_iter().chain(drawn).reduce(f32::max).map_or(EyeDimensions::default(), with_iris);
     let picture = iris.and_then(|iris| scene.materials[iris].base.texture);
     let color = iris.map_or([1.0; 3], |iris| {
         let [r, g, b, _] = scene.materials[iris].base.color;
@@ -79,6 +81,13 @@ pub(super) fn apply(scene: &mut Scene) {
     as_painted(scene, &layers);
 }
 
+/// Measures of an eye with a human iris that is this share of its ball.
+fn with_iris(share: f32) -> EyeDimensions {
+    let human = EyeDimensions::default();
+    let eyeball_radius_mm = (human.iris_radius_mm / share.max(0.1)).clamp(human.cornea_radius_mm, 40.0);
+    EyeDimensions { eyeball_radius_mm, ..human }
+}
+
 /// Gives eyes the measures that are painted: of the pupil, and where nothing but the picture has one, of the iris.
 fn as_painted(scene: &mut Scene, layers: &[(usize, Layer)]) {
     // What is wrong with them the upload says.
@@ -92,9 +101,8 @@ fn as_painted(scene: &mut Scene, layers: &[(usize, Layer)]) {
         let Some(painted) = Painted::of(image, row) else { continue };
         let mut changed = Eye { pupil_drawn: painted.pupil, ..eye };
         if let (None, Some(iris)) = (eye.iris_map, painted.iris) {
-            let radius = (eye.dimensions.iris_radius_mm * iris).clamp(2.0, 7.5);
-            changed.dimensions.iris_radius_mm = radius;
-            changed.dimensions.limbus_radius_mm = radius;
+            let share = eye.dimensions.iris_radius_mm / eye.dimensions.eyeball_radius_mm;
+            changed.dimensions = with_iris(share * iris);
         }
         scene.materials[*index].eye = Some(changed);
     }
@@ -113,7 +121,13 @@ fn bring_forth(scene: &mut Scene) {
 }
 
 /// Materials of eyeballs, and what each is.
-fn layers(scene: &Scene) -> Vec<(usize, Layer)> {
+struct Layers {
+    list: Vec<(usize, Layer)>,
+    /// Radius of the largest ball, metres; 0 where there is none.
+    ball_m: f32,
+}
+
+fn layers(scene: &Scene) -> Layers {
     let named: BTreeSet<usize> =
         [Role::Eye, Role::EyeWhite].into_iter().flat_map(|role| materials_of(scene, role)).collect();
     let bones = EyeBone::of(scene);
@@ -127,7 +141,7 @@ fn layers(scene: &Scene) -> Vec<(usize, Layer)> {
     for material in named.iter().filter(|m| balls.iter().all(|(ball, _)| ball != *m)) {
         layers.extend(layer(of(*material).map(|(body, _)| body), &frames).map(|layer| (*material, layer)));
     }
-    layers
+    Layers { list: layers, ball_m: frames.iter().map(|f| f.radius).fold(0.0, f32::max) }
 }
 
 /// What parts are that lie about eyeballs, where all of them do.

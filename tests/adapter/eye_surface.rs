@@ -92,7 +92,7 @@ fn lids_shade_what_lies_under_them() {
     let open = |of: &Scene| linear(&render(&gpu, of, &shot));
     let bare = open(&eyeball(matt()));
     assert!(bare.iter().zip(rays(&shot)).all(|(c, ray)| c.y == 1.0 || !ray.is_on_ball()), "shade without lids");
-    let found = open(&with_lids(matt()));
+    let found = open(&with_lids(Eye { lid_shadow: 0.4, lash_shadow: 0.25, ..matt() }));
     let at = |elevation: f32| found[row(128, elevation) * 128 + 64].y;
     let [upper, middle, lower] = [EDGES[1] - 0.06, 0.0, EDGES[0] + 0.06].map(at);
     println!("{upper} {middle} {lower}");
