@@ -192,7 +192,11 @@ impl Eyes {
             }
             let seen: Vec<Seen> =
                 (first..).zip(&planes).map(|(number, p)| Seen { of_eye: p.disc_from_mesh(), number }).collect();
-            self.take(&own, &seen, planes.iter().map(|p| (p.centre, p.axis, p.up)));
+            self.take(
+                &own,
+                &seen,
+                planes.iter().map(|p| (p.centre, p.gaze, p.up.reject_from_normalized(p.gaze).normalize_or(p.up))),
+            );
             // Rows go by the number of the eye.
             self.rows[index] = vec![EyeRow::default(); first];
             for (seen, plane) in seen.iter().zip(&planes) {

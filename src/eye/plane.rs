@@ -12,12 +12,16 @@ pub(crate) struct IrisPlane {
     pub centre: Vec3,
     /// Out of the eye, unit.
     pub axis: Vec3,
+    /// Where the eye looks, unit: as the nearest bone does, else along `axis`. A drawn iris lies as the face does, turned outwards.
+    pub gaze: Vec3,
     /// Upwards, at right angles to `axis`; unit.
     pub up: Vec3,
     /// Half of its width and of its height, metres.
     pub half: Vec2,
 }
 
+/// Cosine of the angle from which on a bone does not mean an iris.
+const AHEAD: f64 = 0.7;
 /// Half of a side below which it is none, metres.
 const LEAST_HALF: f64 = 1e-6;
 
@@ -42,6 +46,7 @@ impl IrisPlane {
             let middle = points.iter().sum::<DVec3>() / points.len().max(1) as f64;
             let near = |bone: &&EyeBone| bone.position.as_dvec3().distance_squared(middle);
             let bone = bones.iter().min_by(|a, b| near(a).total_cmp(&near(b)));
+            let gaze = bone.and_then(|b| b.forward.as_dvec3().try_normalize()).filter(|gaze| gaze.dot(axis) > AHEAD);
             let up = bone.and_then(|b| b.up.as_dvec3().try_normalize()).unwrap_or(DVec3::Y);
             let up = up.reject_from_normalized(axis).try_normalize().unwrap_or_else(|| axis.any_orthonormal_vector());
             let right = up.cross(axis);
@@ -55,6 +60,7 @@ impl IrisPlane {
             planes.push(Self {
                 centre: (middle + right * off.x + up * off.y).as_vec3(),
                 axis: axis.as_vec3(),
+                gaze: gaze.unwrap_or(axis).as_vec3(),
                 up: up.as_vec3(),
                 half: half.as_vec2(),
             });

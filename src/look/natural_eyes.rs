@@ -54,7 +54,7 @@ pub(super) fn apply(scene: &mut Scene) {
     });
     // Portraits of drawn characters have painted lights; on a real head they would be stickers.
     let preset = if scene.character.is_some() {
-        Eye::portrait()
+        Eye { limbus_strength: 0.35, limbus_width: 0.08, ..Eye::portrait() }
     } else {
         Eye { veins: 0.0, ..Eye::human() }
     };

@@ -22,7 +22,7 @@ const PI: f32 = 3.14159265;
 // Half of the width over which white and iris meet, mm.
 const LIMBUS_EDGE: f32 = 0.12;
 // Of the wet line: it is hollow, and mirrors a light over some of its length.
-const WET_ROUGHNESS: f32 = 0.3;
+const WET_ROUGHNESS: f32 = 0.32;
 
 // What of an eye all lights ask for; directions in its space where nothing else is said.
 struct Seen {
@@ -108,6 +108,19 @@ fn eye_lobe(s: Surface, e: Seen, to_light: vec3f) -> vec3f {
     return schlick(e.f0, dot(s.view, h)) * (d * smith_visibility(n_dot_l, e.n_dot_v, e.alpha) * n_dot_l * material.eye.specular_strength);
 }
 
+// Rows of an eye. Looked up by a number, they would be unknown to software rasterizers beside a triangle, and normals have a step.
+@if(eye_lids)
+fn eye_lids(number: u32) -> mat3x4f {
+    let m = &material.eye;
+    let low = select(0.0, 1.0, number == 1u || number == 3u);
+    let high = select(0.0, 1.0, number > 1u);
+    var rows: mat3x4f;
+    rows[0] = mix(mix((*m).rows[0], (*m).rows[3], low), mix((*m).rows[6], (*m).rows[9], low), high);
+    rows[1] = mix(mix((*m).rows[1], (*m).rows[4], low), mix((*m).rows[7], (*m).rows[10], low), high);
+    rows[2] = mix(mix((*m).rows[2], (*m).rows[5], low), mix((*m).rows[8], (*m).rows[11], low), high);
+    return rows;
+}
+
 fn eye_seen(s: Surface, place: vec3f) -> Seen {
     let m = &material.eye;
     var e: Seen;
@@ -127,16 +140,16 @@ fn eye_seen(s: Surface, place: vec3f) -> Seen {
     e.ball = normalize(e.axes * place);
     e.open = 1.0;
     @if(eye_lids) {
-        let first = 3u * s.at.eye_axes.x;
-        let upper = vec3f((*m).rows[first].w, (*m).rows[first + 1u].w, (*m).rows[first + 2u].x);
-        let lower = (*m).rows[first + 2u].yzw;
+        let lids = eye_lids(s.at.eye_axes.x);
+        let upper = vec3f(lids[0].w, lids[1].w, lids[2].x);
+        let lower = lids[2].yzw;
         e.open = lid_shade(s.at.eye_face, upper, lower, (*m).lid_reach_rad, (*m).lid_shadow, (*m).lash_shadow);
         e.wet = wet_line(s.at.eye_face, lower, (*m).wet_line_rad);
     }
     let smooth_normal = normalize(mix(e.ball, e.axes * cornea, e.on_cornea));
-    let along_x = dpdx(smooth_normal);
-    let along_y = dpdy(smooth_normal);
-    e.normal = normalize(smooth_normal + e.axes[1] * e.wet);
+    e.normal = normalize(smooth_normal + 0.85 * e.axes[1] * e.wet);
+    let along_x = dpdx(e.normal);
+    let along_y = dpdy(e.normal);
     let rough = mix(mix((*m).sclera_roughness, (*m).cornea_roughness, e.on_cornea), WET_ROUGHNESS, e.wet);
     e.alpha = sqrt(filtered_alpha2(pow(rough, 4.0), along_x, along_y));
     e.n_dot_v = max(dot(e.normal, s.view), 1e-3);
@@ -199,9 +212,15 @@ fn eye_model(s: Surface) -> Shaded {
         l.direct += (light * through + eye_lobe(s, e, arriving.to_light)) * arriving.radiance * e.open;
     }
     let around = mirrored * environment_radiance(reflect(-s.view, e.normal), sqrt(e.alpha));
+    // Beside and behind, the ball lies in its socket, which it mirrors.
+    let before = smoothstep(0.0, 0.65, normalize(place).z);
     l.gi = gaze_gi * e.open;
-    l.ambient = mix(sclera, iris, e.on_cornea) * l.gi * through + around * e.open;
-    @if(eye_catch) l.direct += eye_catch_lights(s, e, place) * (s.light * arrives + l.gi);
+    l.ambient = mix(sclera, iris, e.on_cornea) * l.gi * through + around * e.open * before;
+    @if(eye_catch) {
+        // As the whole eye is lit: what is painted has no shadow across.
+        let facing = saturate(0.5 + 0.5 * dot(e.axes[2], frame.to_light));
+        l.direct += eye_catch_lights(s, e, place) * (s.light * facing + l.gi);
+    }
     l.lit = mix(sclera, iris, e.on_cornea);
     @if(channel_eye_place) shown = mix(vec3f(0.0, 0.0, 1.0), vec3f(e.q * 0.5 + 0.5, 0.0), e.on_cornea);
     @if(channel_eye_caustic) shown = vec3f(0.5 * iris_light(e, frame.to_light * e.axes) * e.on_cornea);
