@@ -355,8 +355,10 @@ impl LookFile {
             self.face_maps(scene, shadow, &format!("{pointer}.face_shadow"))?;
         }
         presets::expand(&mut over).map_err(|message| self.fault(pointer, message))?;
-        if let Some(Value::Table(skin)) = over.get_mut("skin") {
-            self.profile(skin, &format!("{pointer}.skin.profile"))?;
+        for key in ["skin", "eye"] {
+            if let Some(Value::Table(section)) = over.get_mut(key) {
+                self.profile(section, &format!("{pointer}.{key}.profile"))?;
+            }
         }
         self.textures(scene, &mut over, pointer)?;
         units(&mut over, false).map_err(|message| self.fault(pointer, message))?;

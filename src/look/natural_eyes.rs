@@ -100,7 +100,8 @@ fn as_painted(scene: &mut Scene, layers: &[(usize, Layer)]) {
         let (Some(image), Some(row)) = (image, eyes.rows[*index].first()) else { continue };
         let Some(painted) = Painted::of(image, row) else { continue };
         let mut changed = Eye { pupil_drawn: painted.pupil, ..eye };
-        if let (None, Some(iris)) = (eye.iris_map, painted.iris) {
+        // The parts of an eye say themselves how large its iris is.
+        if let (None, Some(iris), [_]) = (eye.iris_map, painted.iris, layers) {
             let share = eye.dimensions.iris_radius_mm / eye.dimensions.eyeball_radius_mm;
             changed.dimensions = with_iris(share * iris);
         }

@@ -14,15 +14,19 @@ fn folder(name: &str) -> PathBuf {
     folder
 }
 
-/// The skin of a material called Face under a look that lies in a folder.
-fn skin(folder: &Path, look: &str) -> Result<Skin, String> {
+/// A material called Face under a look that lies in a folder.
+fn face(folder: &Path, look: &str) -> Result<Material, String> {
     let face = Material { name: "Face".into(), ..Material::default() };
     let mut scene = Scene { materials: vec![face], ..Scene::default() };
     let text = format!("base = \"plain\"\n[material.Face]\n{look}");
     LookFile::parse(folder.join("girl.look.toml"), &text)
         .and_then(|look| look.apply(&mut scene, None))
         .map_err(|e| e.to_string())?;
-    Ok(scene.materials[0].skin.expect("skin"))
+    Ok(scene.materials.remove(0))
+}
+
+fn skin(folder: &Path, look: &str) -> Result<Skin, String> {
+    face(folder, look).map(|face| face.skin.expect("skin"))
 }
 
 #[test]
@@ -98,6 +102,8 @@ fn looks_refer_to_profiles_by_name_by_file_or_write_them() {
     assert_eq!(skin(&folder, "skin = { profile = { scattering_distance_mm = [1, 0.5, 0.25] } }"), Ok(by(ear)));
     let jade = DiffusionProfile::named("jade").expect("a preset");
     assert_eq!(skin(&folder, "skin = { profile = \"jade\" }"), Ok(by(jade)));
+    let of_eye = face(&folder, "eye = { profile = \"jade\" }").map(|face| face.eye.expect("an eye").profile);
+    assert_eq!(of_eye, Ok(jade));
     let over = skin(&folder, "skin = { preset = \"skin_dark\", profile = \"jade\", diffuse = \"lambert\" }");
     assert_eq!(over, Ok(Skin { diffuse: SkinDiffuse::Lambert, ..Skin { profile: jade, ..Skin::skin_dark() } }));
 }
