@@ -16,4 +16,4 @@ pub use placed::{EyeRow, MOST_EYES};
 pub use pupil::PupilReflex;
 
 pub(crate) use painted::Painted;
-pub(crate) use placed::{EyeVertex, Eyes};
+pub(crate) use placed::{EyeVertex, Eyes, parts_at_rest};

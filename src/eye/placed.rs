@@ -80,9 +80,9 @@ pub(crate) struct Eyes {
 pub(crate) type EyeFault = (usize, &'static str, String);
 
 /// A part at rest.
-struct RestPart<'a> {
+pub(crate) struct RestPart<'a> {
     id: u32,
-    primitive: &'a Primitive,
+    pub primitive: &'a Primitive,
     /// Character space.
     positions: Vec<Vec3>,
     /// Whether it goes by the joints of a skin.
@@ -109,7 +109,7 @@ impl Eyes {
         if has_none {
             return Ok(Self::default());
         }
-        let parts = parts(scene);
+        let parts = parts_at_rest(scene);
         let mut eyes = Self { rows: vec![Vec::new(); scene.materials.len()], ..Self::default() };
         eyes.add_balls(scene, &parts)?;
         eyes.add_planes(scene, &parts)?;
@@ -238,7 +238,7 @@ impl Eyes {
 
 impl RestPart<'_> {
     /// Its shape alone.
-    fn body(&self) -> Primitive {
+    pub fn body(&self) -> Primitive {
         let positions = self.positions.iter().map(Vec3::to_array).collect();
         Primitive { positions, indices: self.primitive.indices.clone(), ..Primitive::default() }
     }
@@ -259,7 +259,7 @@ impl RestPart<'_> {
 }
 
 /// All parts, in the order of nodes and primitives.
-fn parts(scene: &Scene) -> Vec<RestPart<'_>> {
+pub(crate) fn parts_at_rest(scene: &Scene) -> Vec<RestPart<'_>> {
     let rest = scene.rest_world_from_nodes();
     let mut list = Vec::new();
     for (node, mesh) in scene.mesh_nodes() {

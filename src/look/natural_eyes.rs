@@ -5,10 +5,9 @@ use std::collections::BTreeSet;
 use glam::{Mat4, Vec3};
 
 use super::anime::materials_of;
-use crate::eye::{EyeBone, EyeDimensions, EyeFrame, Eyes, Painted};
+use crate::eye::{EyeBone, EyeDimensions, EyeFrame, Eyes, Painted, parts_at_rest};
 use crate::material::{Alpha, AlphaMode, CastShadow, Eye};
 use crate::scene::{Primitive, Role, Scene};
-use crate::skin::Part;
 
 /// Expression that brings eyeballs forth in the place of drawn eyes.
 const EYEBALLS: &str = "eyeballs";
@@ -121,8 +120,9 @@ fn bring_forth(scene: &mut Scene) {
     }
 }
 
-/// Materials of eyeballs, and what each is.
+/// The eyeballs of a scene.
 struct Layers {
+    /// Their materials, and what each is.
     list: Vec<(usize, Layer)>,
     /// Radius of the largest ball, metres; 0 where there is none.
     ball_m: f32,
@@ -132,7 +132,9 @@ fn layers(scene: &Scene) -> Layers {
     let named: BTreeSet<usize> =
         [Role::Eye, Role::EyeWhite].into_iter().flat_map(|role| materials_of(scene, role)).collect();
     let bones = EyeBone::of(scene);
-    let bodies: Vec<(usize, Primitive)> = bodies(scene, &named);
+    let parts = parts_at_rest(scene);
+    let named_parts = parts.iter().filter(|part| named.contains(&part.primitive.material));
+    let bodies: Vec<(usize, Primitive)> = named_parts.map(|part| (part.primitive.material, part.body())).collect();
     let of =
         |material: usize| bodies.iter().filter(move |(m, _)| *m == material).map(|(_, body)| (body, Mat4::IDENTITY));
     let frames_of = |material: usize| EyeFrame::of(&of(material).collect::<Vec<_>>(), &bones).ok();
@@ -165,24 +167,4 @@ fn layer<'a>(bodies: impl Iterator<Item = &'a Primitive>, frames: &[EyeFrame]) -
     } else {
         Layer::Iris { radius: widest }
     })
-}
-
-/// Parts of some materials as they stand at rest.
-fn bodies(scene: &Scene, of: &BTreeSet<usize>) -> Vec<(usize, Primitive)> {
-    let rest = scene.rest_world_from_nodes();
-    let mut list = Vec::new();
-    for (node, mesh) in scene.mesh_nodes() {
-        let morph_weights = &scene.nodes[node].morph_weights;
-        let skin = scene.nodes[node].skin.and_then(|s| scene.skins.get(s));
-        let character_from_mesh = skin.map_or(rest[node], |skin| skin.matrix(&rest, 0));
-        for primitive in mesh.primitives.iter().filter(|p| of.contains(&p.material)) {
-            let positions = Part { primitive, character_from_mesh, morph_weights }.positions();
-            let positions = positions.into_iter().map(|p| p.to_array()).collect();
-            list.push((
-                primitive.material,
-                Primitive { positions, indices: primitive.indices.clone(), ..Primitive::default() },
-            ));
-        }
-    }
-    list
 }

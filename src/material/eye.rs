@@ -53,7 +53,8 @@ crate::section! {
         iris_map: Option<TextureRef> = None, read SRGB;
         /// What the colour of the iris is multiplied by, linear.
         iris_color: [f32; 3] = [1.0; 3], in 0.0..=4.0;
-        /// Diameter of the pupil, mm; light and expressions change it where the scene has `pupils`.
+        /// Diameter of the pupil, mm. Where the scene has `pupils`, as in the natural look, light says it instead as far as their
+        /// `reflex`, and expressions multiply it.
         pupil_mm: f32 = 4.0, in 0.2..=10.0;
         /// Radius of the pupil as it is painted, share of the iris' radius; 0 where none is painted and none is wanted.
         pupil_drawn: f32 = 0.35, in 0.0..=0.95;

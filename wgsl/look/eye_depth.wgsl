@@ -1,6 +1,6 @@
 // A drawn iris that has depth.
 import package::bind::actor::actors;
-import package::bind::eye::eye_axes;
+import package::bind::eye::{eye_axes, of_eye};
 import package::bind::frame::frame;
 import package::bind::shown::shown;
 import package::bind::surface::Surface;
@@ -54,13 +54,13 @@ fn eye_depth_vary(v: Vertex, given: Varying) -> Varying {
     return out;
 }
 
-// Rows of the eye. Looked up by a number, they would be unknown to software rasterizers beside a triangle, and textures see a step.
 fn eye_depth_rows(s: Surface) -> mat2x4f {
     let m = &material.eye_depth;
     let number = s.at.eye_axes.x;
-    let u = select(select((*m).rows[0], (*m).rows[2], number == 1u), select((*m).rows[4], (*m).rows[6], number == 3u), number > 1u);
-    let v = select(select((*m).rows[1], (*m).rows[3], number == 1u), select((*m).rows[5], (*m).rows[7], number == 3u), number > 1u);
-    return mat2x4f(u, v);
+    return mat2x4f(
+        of_eye(number, (*m).rows[0], (*m).rows[2], (*m).rows[4], (*m).rows[6]),
+        of_eye(number, (*m).rows[1], (*m).rows[3], (*m).rows[5], (*m).rows[7])
+    );
 }
 
 fn eye_depth_surface(surface: Surface) -> Surface {

@@ -1,7 +1,7 @@
 // An eye: iris behind a refracting cornea, white that scatters, and what the wet surface mirrors.
 import package::bind::actor::actors;
 import package::bind::environment::{environment_brdf, environment_irradiance, environment_radiance};
-import package::bind::eye::eye_axes;
+import package::bind::eye::{eye_axes, of_eye};
 import package::bind::frame::frame;
 import package::bind::lights::punctual_light;
 import package::bind::shown::shown;
@@ -27,7 +27,8 @@ const WET_ROUGHNESS: f32 = 0.32;
 // What of an eye all lights ask for; directions in its space where nothing else is said.
 struct Seen {
     axes: mat3x3f,
-    // Share of cornea, place of the iris, mm, and in its unit disc.
+    // Where the view enters the cornea, from its centre, mm; share of cornea, place of the iris, mm, and in its unit disc.
+    entry: vec3f,
     on_cornea: f32,
     iris: vec2f,
     q: vec2f,
@@ -108,17 +109,15 @@ fn eye_lobe(s: Surface, e: Seen, to_light: vec3f) -> vec3f {
     return schlick(e.f0, dot(s.view, h)) * (d * smith_visibility(n_dot_l, e.n_dot_v, e.alpha) * n_dot_l * material.eye.specular_strength);
 }
 
-// Rows of an eye. Looked up by a number, they would be unknown to software rasterizers beside a triangle, and normals have a step.
+// Rows of an eye.
 @if(eye_lids)
-fn eye_lids(number: u32) -> mat3x4f {
+fn eye_rows(number: u32) -> mat3x4f {
     let m = &material.eye;
-    let low = select(0.0, 1.0, number == 1u || number == 3u);
-    let high = select(0.0, 1.0, number > 1u);
-    var rows: mat3x4f;
-    rows[0] = mix(mix((*m).rows[0], (*m).rows[3], low), mix((*m).rows[6], (*m).rows[9], low), high);
-    rows[1] = mix(mix((*m).rows[1], (*m).rows[4], low), mix((*m).rows[7], (*m).rows[10], low), high);
-    rows[2] = mix(mix((*m).rows[2], (*m).rows[5], low), mix((*m).rows[8], (*m).rows[11], low), high);
-    return rows;
+    return mat3x4f(
+        of_eye(number, (*m).rows[0], (*m).rows[3], (*m).rows[6], (*m).rows[9]),
+        of_eye(number, (*m).rows[1], (*m).rows[4], (*m).rows[7], (*m).rows[10]),
+        of_eye(number, (*m).rows[2], (*m).rows[5], (*m).rows[8], (*m).rows[11])
+    );
 }
 
 fn eye_seen(s: Surface, place: vec3f) -> Seen {
@@ -129,7 +128,8 @@ fn eye_seen(s: Surface, place: vec3f) -> Seen {
     let centre = vec3f(0.0, 0.0, (*m).cornea_centre_z_mm);
     let radius = (*m).dimensions_cornea_radius_mm;
     let entry = cornea_entry(place, view, (*m).cornea_centre_z_mm, radius);
-    let cornea = (entry.xyz - centre) / radius;
+    e.entry = entry.xyz - centre;
+    let cornea = e.entry / radius;
     // A ray enters the cornea above the limbus; where it misses, what stands above that is cornea seen from the side.
     let above = smoothstep(-LIMBUS_EDGE, LIMBUS_EDGE, entry.z - (*m).limbus_z_mm);
     e.on_cornea = above * max(entry.w, smoothstep(-LIMBUS_EDGE, LIMBUS_EDGE, place.z - (*m).limbus_z_mm));
@@ -140,9 +140,9 @@ fn eye_seen(s: Surface, place: vec3f) -> Seen {
     e.ball = normalize(e.axes * place);
     e.open = 1.0;
     @if(eye_lids) {
-        let lids = eye_lids(s.at.eye_axes.x);
-        let upper = vec3f(lids[0].w, lids[1].w, lids[2].x);
-        let lower = lids[2].yzw;
+        let rows = eye_rows(s.at.eye_axes.x);
+        let upper = vec3f(rows[0].w, rows[1].w, rows[2].x);
+        let lower = rows[2].yzw;
         e.open = lid_shade(s.at.eye_face, upper, lower, (*m).lid_reach_rad, (*m).lid_shadow, (*m).lash_shadow);
         e.wet = wet_line(s.at.eye_face, lower, (*m).wet_line_rad);
     }
@@ -159,20 +159,18 @@ fn eye_seen(s: Surface, place: vec3f) -> Seen {
 
 // Painted lights, over the light's strength.
 @if(eye_catch)
-fn eye_catch_lights(s: Surface, e: Seen, place: vec3f) -> f32 {
+fn eye_catch_lights(s: Surface, e: Seen) -> f32 {
     let m = &material.eye;
     let up = vec3f(frame.view_from_world[0].y, frame.view_from_world[1].y, frame.view_from_world[2].y);
     let right = normalize(cross(up, s.view));
     let screen = mat3x3f(right, cross(s.view, right), s.view);
     let radii = vec2f((*m).dimensions_cornea_radius_mm, (*m).dimensions_iris_radius_mm);
-    let entry = cornea_entry(place, s.view * e.axes, (*m).cornea_centre_z_mm, radii.x).xyz
-        - vec3f(0.0, 0.0, (*m).cornea_centre_z_mm);
     let key = catch_light(
-        entry, e.axes, screen, frame.to_light, radii, (*m).key_catch_half, (*m).key_catch_from_rad,
+        e.entry, e.axes, screen, frame.to_light, radii, (*m).key_catch_half, (*m).key_catch_from_rad,
         vec3f((*m).key_catch_round, (*m).key_catch_follow, (*m).key_catch_within)
     );
     let fill = catch_light(
-        entry, e.axes, screen, frame.to_light, radii, (*m).fill_catch_half, (*m).fill_catch_from_rad,
+        e.entry, e.axes, screen, frame.to_light, radii, (*m).fill_catch_half, (*m).fill_catch_from_rad,
         vec3f((*m).fill_catch_round, (*m).fill_catch_follow, (*m).fill_catch_within)
     );
     return e.on_cornea * (key * (*m).key_catch_strength + fill * (*m).fill_catch_strength);
@@ -219,7 +217,7 @@ fn eye_model(s: Surface) -> Shaded {
     @if(eye_catch) {
         // As the whole eye is lit: what is painted has no shadow across.
         let facing = saturate(0.5 + 0.5 * dot(e.axes[2], frame.to_light));
-        l.direct += eye_catch_lights(s, e, place) * (s.light * facing + l.gi);
+        l.direct += eye_catch_lights(s, e) * (s.light * facing + l.gi);
     }
     l.lit = mix(sclera, iris, e.on_cornea);
     @if(channel_eye_place) shown = mix(vec3f(0.0, 0.0, 1.0), vec3f(e.q * 0.5 + 0.5, 0.0), e.on_cornea);
