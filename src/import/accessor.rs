@@ -266,14 +266,10 @@ impl Accessor<'_> {
         (rows, bad)
     }
 
-    /// All elements as floats; refuses non-finite ones.
-    pub(super) fn all_finite<const N: usize>(&self, what: &str) -> Result<Vec<[f32; N]>> {
+    /// [`Self::floats`] of all elements.
+    pub(super) fn all_floats<const N: usize>(&self) -> Result<(Vec<[f32; N]>, usize)> {
         let count = u32::try_from(self.count).map_err(|_| self.fault("count is too large"))?;
-        let (rows, bad) = self.floats(0..count);
-        if bad > 0 {
-            return Err(self.fault(format!("{what}: found {bad} NaN or infinite values, expected finite ones")));
-        }
-        Ok(rows)
+        Ok(self.floats(0..count))
     }
 
     /// Elements as unsigned integers: `N` components each.

@@ -1,5 +1,7 @@
 //! Animation clips.
 
+use std::collections::BTreeSet;
+
 use crate::scene::{Animation, AnimationChannel, AnimationValues, Interpolation, Mesh};
 
 use super::accessor::{Accessor, Component};
@@ -19,28 +21,42 @@ pub(super) struct Context<'a> {
     pub(super) limits: &'a Limits,
 }
 
-/// Reads all clips.
+/// Reads all clips. A clip of which nothing is left stays, so that the file's indices hold.
 pub(super) fn read_all(
     root: &Json,
     cx: &Context,
     budget: &mut Budget,
     warnings: &mut Warnings,
 ) -> Result<Vec<Animation>> {
-    let mut clips = Vec::new();
-    for json in root.objects("animations")? {
-        let samplers = json.objects("samplers")?;
-        let mut channels = Vec::new();
-        for channel in json.objects("channels")? {
-            let index = channel.need("sampler")?.as_index(samplers.len(), "samplers")?;
-            let target = channel.need("target")?;
-            let Some(sampler) = samplers.get(index) else { continue };
-            if let Some(read) = read_channel(&target, sampler, cx, budget, warnings)? {
-                channels.push(read);
-            }
-        }
-        clips.push(Animation { name: json.name()?, channels });
+    root.objects("animations")?.iter().map(|json| read_clip(json, cx, budget, warnings)).collect()
+}
+
+fn read_clip(json: &Json, cx: &Context, budget: &mut Budget, warnings: &mut Warnings) -> Result<Animation> {
+    let samplers = json.objects("samplers")?;
+    let list = json.objects("channels")?;
+    if list.is_empty() {
+        warnings.add(json.pointer(), "clip without channels: it moves nothing");
     }
-    Ok(clips)
+    let mut channels = Vec::new();
+    let mut taken = BTreeSet::new();
+    for channel in list {
+        let index = channel.need("sampler")?.as_index(samplers.len(), "samplers")?;
+        let target = channel.need("target")?;
+        let Some(sampler) = samplers.get(index) else { continue };
+        let Some((node, path)) = read_target(&target, cx, warnings)? else { continue };
+        if taken.contains(&(node, path)) {
+            warnings.add(
+                channel.pointer(),
+                format!("another channel of the clip moves the {path} of the node as well: the first is kept"),
+            );
+            continue;
+        }
+        if let Some(read) = read_channel(node, path, &target, sampler, cx, budget, warnings)? {
+            taken.insert((node, path));
+            channels.push(read);
+        }
+    }
+    Ok(Animation { name: json.name()?, channels })
 }
 
 fn accessor<'a>(sampler: &Json, key: &str, cx: &'a Context) -> Result<&'a Accessor<'a>> {
@@ -49,13 +65,8 @@ fn accessor<'a>(sampler: &Json, key: &str, cx: &'a Context) -> Result<&'a Access
     cx.accessors.get(index).ok_or_else(|| json.fault("accessor is missing"))
 }
 
-fn read_channel(
-    target: &Json,
-    sampler: &Json,
-    cx: &Context,
-    budget: &mut Budget,
-    warnings: &mut Warnings,
-) -> Result<Option<AnimationChannel>> {
+/// The node and the property that a channel moves.
+fn read_target<'a>(target: &Json<'a>, cx: &Context, warnings: &mut Warnings) -> Result<Option<(usize, &'a str)>> {
     let path = target.need("path")?.as_str()?;
     if path == "pointer" {
         warnings.add(target.pointer(), "KHR_animation_pointer is not supported: channel skipped");
@@ -66,6 +77,23 @@ fn read_channel(
             target.fault(format!("found path {}, expected translation, rotation, scale or weights", quoted(path)))
         );
     }
+    let Some(gltf_node) = target.index("node", cx.graph.from_gltf.len(), "nodes")? else {
+        warnings.add(target.pointer(), "channel without a node: skipped");
+        return Ok(None);
+    };
+    let node = cx.graph.node(gltf_node).ok_or_else(|| target.fault("node is missing"))?;
+    Ok(Some((node, path)))
+}
+
+fn read_channel(
+    node: usize,
+    path: &str,
+    target: &Json,
+    sampler: &Json,
+    cx: &Context,
+    budget: &mut Budget,
+    warnings: &mut Warnings,
+) -> Result<Option<AnimationChannel>> {
     let interpolation = match sampler.str("interpolation")?.unwrap_or("LINEAR") {
         "LINEAR" => Interpolation::Linear,
         "STEP" => Interpolation::Step,
@@ -79,17 +107,14 @@ fn read_channel(
     let input = accessor(sampler, "input", cx)?;
     input.expect("sampler input", &["SCALAR"], &[F32], sampler.pointer())?;
     let output = accessor(sampler, "output", cx)?;
-    let Some(gltf_node) = target.index("node", cx.graph.from_gltf.len(), "nodes")? else {
-        warnings.add(target.pointer(), "channel without a node: skipped");
-        return Ok(None);
-    };
-    let node = cx.graph.node(gltf_node).ok_or_else(|| target.fault("node is missing"))?;
     if input.count == 0 {
         warnings.add(sampler.pointer(), "sampler without keys: channel skipped");
         return Ok(None);
     }
     budget.bytes(sampler.pointer(), input.count.saturating_add(output.count).saturating_mul(16), cx.limits)?;
-    let times: Vec<f32> = input.all_finite::<1>("sampler input times")?.into_flattened();
+    let mut finite = Finite { target, warnings };
+    let Some(times) = finite.rows::<1>("sampler input", input)? else { return Ok(None) };
+    let times = times.into_flattened();
     if !times.is_sorted_by(|a, b| a < b) {
         return Err(input.fault("sampler input: times are not strictly increasing"));
     }
@@ -116,11 +141,11 @@ fn read_channel(
         "translation" | "scale" => {
             output.expect(&format!("sampler output for {path}"), &["VEC3"], &[F32], sampler.pointer())?;
             expect_count(1)?;
-            let rows = output.all_finite::<3>("sampler output")?;
+            let rows = finite.rows::<3>("sampler output", output)?;
             if path == "scale" {
-                AnimationValues::Scale(rows)
+                rows.map(AnimationValues::Scale)
             } else {
-                AnimationValues::Translation(rows)
+                rows.map(AnimationValues::Translation)
             }
         }
         "rotation" => {
@@ -131,24 +156,46 @@ fn read_channel(
                 ));
             }
             expect_count(1)?;
-            let mut rows = output.all_finite::<4>("sampler output")?;
+            let mut rows = finite.rows::<4>("sampler output", output)?;
             if interpolation != Interpolation::CubicSpline {
-                normalize(&mut rows);
+                normalize(rows.as_deref_mut().unwrap_or_default());
             }
-            AnimationValues::Rotation(rows)
+            rows.map(AnimationValues::Rotation)
         }
         _ => {
             output.expect("sampler output for weights", &["SCALAR"], &[F32, I8, U8, I16, U16], sampler.pointer())?;
             let mesh = cx.graph.nodes.get(node).and_then(|n| n.mesh).and_then(|m| cx.meshes.get(m));
             let Some(mesh) = mesh.filter(|m| !m.morph_names.is_empty()) else {
-                warnings.add(target.pointer(), "channel animates weights of a node without morph targets: skipped");
+                let message = "channel animates weights of a node without morph targets: skipped";
+                finite.warnings.add(target.pointer(), message);
                 return Ok(None);
             };
             expect_count(mesh.morph_names.len() as u64)?;
-            AnimationValues::MorphWeights(output.all_finite::<1>("sampler output")?.into_flattened())
+            let rows = finite.rows::<1>("sampler output", output)?;
+            rows.map(|rows| AnimationValues::MorphWeights(rows.into_flattened()))
         }
     };
-    Ok(Some(AnimationChannel { node, times, interpolation, values }))
+    Ok(values.map(|values| AnimationChannel { node, times, interpolation, values }))
+}
+
+/// Reads what a channel refers to, and says where it is not finite.
+struct Finite<'a, 'b> {
+    target: &'a Json<'b>,
+    warnings: &'a mut Warnings,
+}
+
+impl Finite<'_, '_> {
+    /// All elements; `None` where one of them is NaN or infinite.
+    fn rows<const N: usize>(&mut self, what: &str, accessor: &Accessor) -> Result<Option<Vec<[f32; N]>>> {
+        let (rows, bad) = accessor.all_floats()?;
+        if bad > 0 {
+            let place = &accessor.pointer;
+            let message = format!("{what} {place} has {bad} NaN or infinite values: channel skipped");
+            self.warnings.add(self.target.pointer(), message);
+            return Ok(None);
+        }
+        Ok(Some(rows))
+    }
 }
 
 /// Makes quaternions unit; those without a direction become the identity.

@@ -20,7 +20,8 @@ pub(super) fn check(scene: &Scene, warnings: &mut Warnings) {
             );
         }
     }
-    if scene.meshes.iter().all(|m| m.primitives.is_empty()) {
+    // A file of movements has nothing to draw.
+    if scene.animation_rig.is_none() && scene.meshes.iter().all(|m| m.primitives.is_empty()) {
         warnings.add("/meshes", "nothing to draw: no mesh has triangles");
     }
 }

@@ -68,6 +68,11 @@ impl<'a> Json<'a> {
         self.value.is_object()
     }
 
+    /// Whether this is null, or not there at all.
+    pub(super) fn is_null(&self) -> bool {
+        self.value.is_null()
+    }
+
     /// The extension object of this name, if the element has it.
     pub(super) fn extension(&self, name: &str) -> Result<Option<Self>> {
         match self.object("extensions")? {

@@ -1,4 +1,4 @@
-//! From a file to a [`Scene`]: glTF 2.0, GLB, VRM 0.x and VRM 1.0.
+//! From a file to a [`Scene`]: glTF 2.0, GLB, VRM 0.x, VRM 1.0 and VRMA.
 //!
 //! Input is not trusted. Every size is checked against the bytes at hand before it is used, every index before it is
 //! followed, files are opened only below the model's folder, and walks over the node graph are iterative. Order of work:
@@ -42,6 +42,7 @@ mod tangents;
 mod texture;
 mod vrm0;
 mod vrm1;
+mod vrma;
 mod warnings;
 
 use std::path::Path;
@@ -57,7 +58,7 @@ pub use radiance::load_radiance;
 use warnings::Warnings;
 
 /// Extensions that are read. A file that requires any other is refused.
-const SUPPORTED: [&str; 14] = [
+const SUPPORTED: [&str; 15] = [
     "VRM",
     "VRMC_vrm",
     "VRMC_materials_mtoon",
@@ -65,6 +66,7 @@ const SUPPORTED: [&str; 14] = [
     "VRMC_springBone",
     "VRMC_springBone_extended_collider",
     "VRMC_node_constraint",
+    "VRMC_vrm_animation",
     "KHR_materials_ior",
     "KHR_materials_unlit",
     "KHR_materials_emissive_strength",
@@ -154,6 +156,7 @@ fn read(bytes: &[u8], folder: Option<&Path>, limits: &Limits) -> fault::Result<S
         scene.materials.push(Material { name: "default".into(), origin: Origin::Pbr, ..default_material() });
     }
     let cx = animation::Context { accessors: &accessors, graph: &graph, meshes: &scene.meshes, limits };
+    scene.animation_rig = vrma::read(&root, &graph, &mut warnings);
     scene.animations = animation::read_all(&root, &cx, &mut budget, &mut warnings)?;
     scene.nodes = graph.nodes.clone();
     fill_morph_weights(&mut scene, &mesh_json, &mut budget, limits, &mut warnings)?;
@@ -300,7 +303,7 @@ fn read_character(
     let targets: Vec<usize> = scene.meshes.iter().map(|m| m.morph_names.len()).collect();
     let materials: Vec<String> = root.objects("materials")?.iter().map(Json::name).collect::<fault::Result<_>>()?;
     let users = nodes_of_meshes(&graph.nodes, targets.len());
-    let cx = vrm1::Context { graph, targets: &targets, users: &users, materials: &materials };
+    let cx = vrm1::Context { graph, targets: &targets, users: &users, materials: &materials, made: &scene.materials };
     if let Some(ext) = vrm1 {
         let mut character = vrm1::read(&ext, &cx, warnings);
         if let Some(springs) = root.extension("VRMC_springBone")? {

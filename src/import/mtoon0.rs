@@ -111,6 +111,16 @@ fn order_queues(list: &mut [Option<Properties>]) {
     }
 }
 
+/// Decodes a number of a colour that may be over 1. Unity's HDR colours are gamma-encoded as well; above 1 it decodes with a
+/// plain power of 2.2.
+pub(super) fn linear_from_emission(encoded: f32) -> f32 {
+    if encoded > 1.0 {
+        encoded.powf(2.2)
+    } else {
+        linear_from_srgb(encoded)
+    }
+}
+
 /// Fills the material from the entry.
 pub(super) fn apply(
     p: &Properties,
@@ -142,9 +152,8 @@ pub(super) fn apply(
     material.double_sided = number("_CullMode", 2.0) < 1.5;
     let scale = number("_BumpScale", 1.0);
     material.normal_map = texture.get("_BumpMap")?.map(|texture| NormalMap { texture, scale });
-    // Unity's HDR colours are gamma-encoded as well; above 1 it decodes with a plain power of 2.2.
     let [er, eg, eb, _] = vector(&p.json, "_EmissionColor", [0.0; 4]);
-    let [er, eg, eb] = [er, eg, eb].map(|c| if c > 1.0 { c.powf(2.2) } else { linear_from_srgb(c) });
+    let [er, eg, eb] = [er, eg, eb].map(linear_from_emission);
     material.emission = Emission { color: [er, eg, eb], texture: texture.get("_EmissionMap")?, ..Emission::default() };
     material.shading = Shading::Toon(toon(&p.json, &floats, main, texture.get("_ShadeTexture")?));
     material.matcap = texture.get("_SphereAdd")?.map(|t| Matcap { texture: t, color: [1.0; 3] });

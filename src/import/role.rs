@@ -9,6 +9,8 @@ use glam::{Mat4, Vec3};
 
 use crate::scene::{HumanBone, Mesh, Primitive, Role, Scene};
 
+use super::vrm1::OFFSET_FROM_HEAD_M;
+
 /// Words for a role: `whole` match a whole word of the name, `part` match anywhere in it.
 struct Words {
     role: Role,
@@ -250,14 +252,18 @@ fn find_head(scene: &Scene, world: &[Mat4]) -> Option<Head> {
         [HumanBone::LeftEye, HumanBone::RightEye].iter().filter_map(|b| scene.bone_node(*b)).collect();
     let place = |n: usize| world.get(n).map(|m| m.w_axis.truncate());
     let origin = place(node)?;
-    let offset = scene.character.as_ref()?.look_at.map_or(Vec3::ZERO, |l| l.offset_from_head);
-    let gaze = if offset.length() > 0.02 {
-        world.get(node)?.transform_point3(offset)
-    } else if let [left, right] = *eyes.iter().filter_map(|e| place(*e)).collect::<Vec<_>>() {
-        (left + right) * 0.5
-    } else {
-        let neck = scene.bone_node(HumanBone::Neck).and_then(place).map_or(0.1, |n| n.distance(origin));
-        origin + Vec3::new(0.0, 0.8, 0.8) * neck
+    let offset = scene.character.as_ref()?.look_at.as_ref().map_or(Vec3::ZERO, |l| l.offset_from_head);
+    let at_offset = world.get(node)?.transform_point3(offset);
+    let is_far = offset.length() > 0.02;
+    // What stands in for an offset that the file lacks tells nothing about this head; bones of eyes do.
+    let is_said = is_far && offset.to_array() != OFFSET_FROM_HEAD_M;
+    let gaze = match *eyes.iter().filter_map(|e| place(*e)).collect::<Vec<_>>() {
+        [left, right] if !is_said => (left + right) * 0.5,
+        _ if is_far => at_offset,
+        _ => {
+            let neck = scene.bone_node(HumanBone::Neck).and_then(place).map_or(0.1, |n| n.distance(origin));
+            origin + Vec3::new(0.0, 0.8, 0.8) * neck
+        }
     };
     let size = gaze.distance(origin).max(0.02);
     let of_eyes = eyes.iter().flat_map(|e| scene.descendants(*e)).collect();

@@ -6,7 +6,7 @@ use glam::Vec3;
 
 use crate::scene::{Character, Collider, ColliderShape, ConstraintKind, NodeConstraint, Spring, SpringJoint};
 
-use super::fault::Limits;
+use super::fault::{Limits, quoted};
 use super::graph::Graph;
 use super::json::Json;
 use super::warnings::Warnings;
@@ -29,8 +29,7 @@ pub(super) fn read(ext: &Json, graph: &Graph, character: &mut Character, limits:
     for group in ext.list("colliderGroups") {
         let list = group.list("colliders");
         let known = list.iter().filter_map(|c| from_file.get(c.as_index(from_file.len(), "").ok()?).copied().flatten());
-        let distinct: BTreeSet<usize> = known.collect();
-        groups.push(distinct.into_iter().collect());
+        groups.push(distinct(known));
     }
     let mut taken = vec![false; graph.nodes.len()];
     // References to colliders are copied for each spring, so their number needs a bound.
@@ -41,16 +40,7 @@ pub(super) fn read(ext: &Json, graph: &Graph, character: &mut Character, limits:
             warnings.add(json.pointer(), "spring without usable joints: skipped");
             continue;
         }
-        let mut colliders: Vec<usize> = Vec::new();
-        for index in json.list("colliderGroups").iter().filter_map(|g| g.as_index(groups.len(), "").ok()) {
-            colliders.extend(groups.get(index).into_iter().flatten());
-            if colliders.len() > character.colliders.len().saturating_mul(2) {
-                break;
-            }
-        }
-        colliders.sort_unstable();
-        colliders.dedup();
-        references = references.saturating_sub(colliders.len() as u64);
+        let colliders = colliders_of(&json, &groups, &mut references);
         if references == 0 {
             warnings.add(json.pointer(), "too many springs and colliders: the rest is left out");
             return;
@@ -58,6 +48,24 @@ pub(super) fn read(ext: &Json, graph: &Graph, character: &mut Character, limits:
         let name = json.name().unwrap_or_default();
         character.springs.push(Spring { name, joints, center: graph.maybe_node(&json, "center"), colliders });
     }
+}
+
+/// Each entry once, where it stands first.
+fn distinct(list: impl Iterator<Item = usize>) -> Vec<usize> {
+    let mut seen = BTreeSet::new();
+    list.filter(|entry| seen.insert(*entry)).collect()
+}
+
+/// Colliders of the groups that a spring names, in the order of the groups and of the colliders in each. `left` is how many
+/// references may still be followed; at 0 the list is cut.
+pub(super) fn colliders_of(spring: &Json, groups: &[Vec<usize>], left: &mut u64) -> Vec<usize> {
+    let list = spring.list("colliderGroups");
+    let known = distinct(list.iter().filter_map(|g| g.as_index(groups.len(), "").ok()));
+    let all = known.iter().filter_map(|g| groups.get(*g)).flatten().copied();
+    distinct(all.take_while(|_| {
+        *left = left.saturating_sub(1);
+        *left > 0
+    }))
 }
 
 fn joints(spring: &Json, graph: &Graph, taken: &mut [bool], warnings: &mut Warnings) -> Vec<SpringJoint> {
@@ -83,7 +91,7 @@ fn joints(spring: &Json, graph: &Graph, taken: &mut [bool], warnings: &mut Warni
             hit_radius: json.f32_or("hitRadius", 0.0).max(0.0),
             stiffness: json.f32_or("stiffness", 1.0).max(0.0),
             gravity_power: json.f32_or("gravityPower", 0.0),
-            gravity_dir: vec3(&json, "gravityDir", Vec3::NEG_Y).try_normalize().unwrap_or(Vec3::NEG_Y),
+            gravity_dir: vec3(&json, "gravityDir", Vec3::NEG_Y),
             drag: json.f32_or("dragForce", 0.5).clamp(0.0, 1.0),
         });
     }
@@ -128,9 +136,9 @@ pub(super) fn read_constraints(nodes: &[Json], graph: &Graph, warnings: &mut War
     let mut found: Vec<(NodeConstraint, &str)> = Vec::new();
     let mut source_of: Vec<Option<usize>> = vec![None; graph.nodes.len()];
     for (index, json) in nodes.iter().enumerate() {
-        let constraint = json.at("extensions").at("VRMC_node_constraint").at("constraint");
-        let Some(node) = graph.node(index).filter(|_| constraint.is_object()) else { continue };
-        match read_constraint(node, &constraint, graph) {
+        let ext = json.at("extensions").at("VRMC_node_constraint");
+        let Some(node) = graph.node(index).filter(|_| !ext.is_null()) else { continue };
+        match read_constraint(node, &ext.at("constraint"), graph) {
             Some(constraint) => {
                 if let Some(slot) = source_of.get_mut(node) {
                     *slot = Some(constraint.source);
@@ -144,7 +152,8 @@ pub(super) fn read_constraints(nodes: &[Json], graph: &Graph, warnings: &mut War
     let mut out = Vec::new();
     for (constraint, pointer) in found {
         if circular.get(constraint.node).copied().unwrap_or(false) {
-            warnings.add(pointer, "constraints form a circle: skipped");
+            let name = graph.nodes.get(constraint.node).map_or("", |n| n.name.as_str());
+            warnings.add(pointer, format!("constraint of node {} is part of a circle: skipped", quoted(name)));
         } else {
             out.push(constraint);
         }

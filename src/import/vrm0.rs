@@ -6,12 +6,14 @@ use glam::{Quat, Vec3};
 
 use crate::color::linear_from_srgb;
 use crate::scene::{
-    Character, Collider, ColliderShape, ColorBind, ColorTarget, Expression, HumanBone, LookAt, Meta, MorphBind, Node,
-    Spring, SpringJoint, Transform, UvBind,
+    Character, Collider, ColliderShape, ColorBind, ColorTarget, CurveKey, Expression, HumanBone, LookAt, Meta,
+    MorphBind, Node, RangeMap, Spring, SpringJoint, Transform, UvBind,
 };
 
 use super::fault::Limits;
 use super::json::Json;
+use super::mtoon0::linear_from_emission;
+use super::spring::colliders_of;
 use super::vrm1::{Context, check_bones, first_person, node_targets, range_map};
 use super::warnings::Warnings;
 
@@ -42,7 +44,7 @@ pub(super) fn read(ext: &Json, cx: &Context, limits: &Limits, warnings: &mut War
         character.expressions.push(expression(&json, cx, &materials, &mut left, warnings));
     }
     let person = ext.at("firstPerson");
-    character.look_at = person.is_object().then(|| look_at(&person));
+    character.look_at = person.is_object().then(|| look_at(&person, warnings));
     for json in person.list("meshAnnotations") {
         for node in nodes_of_mesh(&json, cx) {
             character.first_person.insert(*node, first_person(json.text("firstPersonFlag")));
@@ -141,7 +143,7 @@ fn expression(
         let mut known = false;
         for material in materials.get(value.text("materialName")).into_iter().flatten() {
             *left = left.saturating_sub(1);
-            known |= *left > 0 && material_value(*material, &value, &mut out);
+            known |= *left > 0 && material_value(*material, &value, cx, &mut out);
         }
         if !known {
             warnings.add(value.pointer(), "expression drives an unknown material or property: bind skipped");
@@ -150,7 +152,13 @@ fn expression(
     out
 }
 
-fn material_value(material: usize, json: &Json, out: &mut Expression) -> bool {
+/// Scale and offset of a material's own UVs.
+fn own_uvs(material: usize, cx: &Context) -> ([f32; 2], [f32; 2]) {
+    let texture = cx.made.get(material).and_then(|m| m.base.texture);
+    texture.map_or(([1.0; 2], [0.0; 2]), |t| (t.transform.scale, t.transform.offset))
+}
+
+fn material_value(material: usize, json: &Json, cx: &Context, out: &mut Expression) -> bool {
     let mut value = [0.0f32; 4];
     for (slot, item) in value.iter_mut().zip(json.list("targetValue")) {
         *slot = item.as_f32().unwrap_or(0.0);
@@ -163,27 +171,30 @@ fn material_value(material: usize, json: &Json, out: &mut Expression) -> bool {
         "_ShadeColor" => ColorTarget::ShadeColor,
         "_RimColor" => ColorTarget::RimColor,
         "_OutlineColor" => ColorTarget::OutlineColor,
-        // Unity's v starts at the bottom.
+        // Unity's v starts at the bottom. The other two move along one axis only, and leave the other as the material has it.
         "_MainTex_ST" => {
             out.uv_transforms.push(UvBind { material, scale: [x, y], offset: [z, 1.0 - w - y] });
             return true;
         }
         "_MainTex_ST_S" => {
-            out.uv_transforms.push(UvBind { material, scale: [x, 1.0], offset: [z, 0.0] });
+            let ([_, scale], [_, offset]) = own_uvs(material, cx);
+            out.uv_transforms.push(UvBind { material, scale: [x, scale], offset: [z, offset] });
             return true;
         }
         "_MainTex_ST_T" => {
-            out.uv_transforms.push(UvBind { material, scale: [1.0, y], offset: [0.0, 1.0 - w - y] });
+            let ([scale, _], [offset, _]) = own_uvs(material, cx);
+            out.uv_transforms.push(UvBind { material, scale: [scale, y], offset: [offset, 1.0 - w - y] });
             return true;
         }
         _ => return false,
     };
-    // As in the materials: emission is linear already, the other colours are sRGB.
-    let [r, g, b] = if target == ColorTarget::EmissionColor {
-        [x, y, z]
+    // As in the materials: all are sRGB, emission may be over 1.
+    let decode = if target == ColorTarget::EmissionColor {
+        linear_from_emission
     } else {
-        [x, y, z].map(|c| linear_from_srgb(c.max(0.0)))
+        linear_from_srgb
     };
+    let [r, g, b] = [x, y, z].map(|c| decode(c.max(0.0)).min(f32::MAX));
     out.colors.push(ColorBind { material, target, value: [r, g, b, w] });
     true
 }
@@ -192,9 +203,13 @@ fn vector(json: &Json) -> Vec3 {
     Vec3::new(json.f32_or("x", 0.0), json.f32_or("y", 0.0), json.f32_or("z", 0.0))
 }
 
-fn look_at(json: &Json) -> LookAt {
+fn look_at(json: &Json, warnings: &mut Warnings) -> LookAt {
     let uses_bones = json.text("lookAtTypeName") != "BlendShape";
-    let map = |key: &str| range_map(&json.at(key), "xRange", "yRange", uses_bones);
+    let mut map = |key: &str| {
+        let json = json.at(key);
+        let curve = curve(&json, warnings);
+        RangeMap { curve, ..range_map(&json, "xRange", "yRange", uses_bones) }
+    };
     let offset = vector(&json.at("firstPersonBoneOffset"));
     LookAt {
         // Unity is left-handed.
@@ -205,6 +220,33 @@ fn look_at(json: &Json) -> LookAt {
         vertical_down: map("lookAtVerticalDown"),
         vertical_up: map("lookAtVerticalUp"),
     }
+}
+
+/// The curve that every exporter writes: the angle's own share.
+const STRAIGHT: [f32; 8] = [0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0, 0.0];
+
+/// Keys of a gaze curve; none where it is straight or of no use.
+fn curve(map: &Json, warnings: &mut Warnings) -> Vec<CurveKey> {
+    let json = map.at("curve");
+    if json.is_null() {
+        return Vec::new();
+    }
+    curve_keys(&json).unwrap_or_else(|| {
+        let message = "curve of the gaze is no list of keys of four numbers in order of time: taken as straight";
+        warnings.add(json.pointer(), message);
+        Vec::new()
+    })
+}
+
+fn curve_keys(json: &Json) -> Option<Vec<CurveKey>> {
+    let numbers = json.items().ok()?.iter().map(|n| n.as_f32().ok()).collect::<Option<Vec<f32>>>()?;
+    if numbers == STRAIGHT {
+        return Some(Vec::new());
+    }
+    let (groups, rest) = numbers.as_chunks::<4>();
+    let key = |&[time, value, in_tangent, out_tangent]: &[f32; 4]| CurveKey { time, value, in_tangent, out_tangent };
+    let keys: Vec<CurveKey> = groups.iter().map(key).collect();
+    (rest.is_empty() && keys.is_sorted_by(|a, b| a.time < b.time)).then_some(keys)
 }
 
 /// Length of the tail that VRM 0.x imagines behind the last bone of a chain, metres.
@@ -244,16 +286,8 @@ pub(super) fn read_springs(
     // References to colliders are copied for each chain, so their number needs a bound.
     let mut references = limits.nodes.saturating_mul(10);
     for group in json.list("boneGroups") {
-        let mut colliders: Vec<usize> = Vec::new();
-        for index in group.list("colliderGroups").iter().filter_map(|g| g.as_index(groups.len(), "").ok()) {
-            colliders.extend(groups.get(index).into_iter().flatten());
-            if colliders.len() > character.colliders.len() {
-                break;
-            }
-        }
-        colliders.sort_unstable();
-        colliders.dedup();
-        let gravity = vector(&group.at("gravityDir"));
+        let colliders = colliders_of(&group, &groups, &mut references);
+        let gravity = group.get("gravityDir").map_or(Vec3::NEG_Y, |dir| vector(&dir));
         let joint = SpringJoint {
             node: 0,
             hit_radius: group.f32_or("hitRadius", 0.0).max(0.0),
@@ -261,7 +295,7 @@ pub(super) fn read_springs(
             stiffness: group.f32_or("stiffiness", 1.0).max(0.0),
             gravity_power: group.f32_or("gravityPower", 0.0),
             // Unity's world to ours, in which the character faces +Z as well.
-            gravity_dir: Vec3::new(-gravity.x, gravity.y, gravity.z).try_normalize().unwrap_or(Vec3::NEG_Y),
+            gravity_dir: Vec3::new(-gravity.x, gravity.y, gravity.z),
             drag: group.f32_or("dragForce", 0.5).clamp(0.0, 1.0),
         };
         let spring = Spring {

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use glam::Vec3;
 
+use crate::material::Material;
 use crate::scene::{
     Character, ColorBind, ColorTarget, Expression, ExpressionOverride, FirstPerson, HumanBone, LookAt, Meta, MorphBind,
     RangeMap, UvBind,
@@ -23,6 +24,8 @@ pub(super) struct Context<'a> {
     pub(super) users: &'a [Vec<usize>],
     /// Names of the materials.
     pub(super) materials: &'a [String],
+    /// The materials themselves.
+    pub(super) made: &'a [Material],
 }
 
 /// Bones that VRM requires.
@@ -45,7 +48,7 @@ const REQUIRED: [HumanBone; 15] = [
 ];
 
 /// Presets of VRM 1.0.
-const PRESETS: [&str; 18] = [
+pub(super) const PRESETS: [&str; 18] = [
     "happy", "angry", "sad", "relaxed", "surprised", "aa", "ih", "ou", "ee", "oh", "blink", "blinkLeft", "blinkRight",
     "lookUp", "lookDown", "lookLeft", "lookRight", "neutral",
 ];
@@ -130,19 +133,34 @@ fn meta(json: &Json) -> Meta {
     }
 }
 
-fn expression(name: &str, preset: bool, json: &Json, cx: &Context, warnings: &mut Warnings) -> Expression {
-    let change = |key: &str| match json.text(key) {
+/// Expressions that act on the lids, the gaze and the mouth.
+const LIDS: [&str; 3] = ["blink", "blinkLeft", "blinkRight"];
+pub(super) const GAZE: [&str; 4] = ["lookUp", "lookDown", "lookLeft", "lookRight"];
+const MOUTH: [&str; 5] = ["aa", "ih", "ou", "ee", "oh"];
+
+/// What an expression does to a group; one of that group itself may do nothing to it.
+fn change(name: &str, json: &Json, key: &str, group: &[&str], warnings: &mut Warnings) -> ExpressionOverride {
+    let change = match json.text(key) {
         "block" => ExpressionOverride::Block,
         "blend" => ExpressionOverride::Blend,
-        _ => ExpressionOverride::None,
+        _ => return ExpressionOverride::None,
     };
+    if !group.contains(&name) {
+        return change;
+    }
+    warnings.add(json.pointer(), format!("{key} of expression {name} is for other kinds of expressions: ignored"));
+    ExpressionOverride::None
+}
+
+fn expression(name: &str, preset: bool, json: &Json, cx: &Context, warnings: &mut Warnings) -> Expression {
+    let mut change = |key: &str, group: &[&str]| change(name, json, key, group, warnings);
     let mut out = Expression {
         name: name.chars().take(1000).collect(),
         preset,
         is_binary: json.flag("isBinary"),
-        override_blink: change("overrideBlink"),
-        override_look_at: change("overrideLookAt"),
-        override_mouth: change("overrideMouth"),
+        override_blink: change("overrideBlink", &LIDS),
+        override_look_at: change("overrideLookAt", &GAZE),
+        override_mouth: change("overrideMouth", &MOUTH),
         ..Expression::default()
     };
     for bind in json.list("morphTargetBinds") {
@@ -201,11 +219,14 @@ pub(super) fn first_person(name: &str) -> FirstPerson {
     }
 }
 
+/// Where the gaze starts in files that do not say it, as three-vrm has it: between the eyes, metres.
+pub(super) const OFFSET_FROM_HEAD_M: [f32; 3] = [0.0, 0.06, 0.0];
+
 fn look_at(json: &Json) -> LookAt {
     let uses_bones = json.text("type") != "expression";
     let map = |key: &str| range_map(&json.at(key), "inputMaxValue", "outputScale", uses_bones);
     LookAt {
-        offset_from_head: Vec3::from_array(json.floats_or("offsetFromHeadBone", [0.0; 3])),
+        offset_from_head: Vec3::from_array(json.floats_or("offsetFromHeadBone", OFFSET_FROM_HEAD_M)),
         uses_bones,
         horizontal_inner: map("rangeMapHorizontalInner"),
         horizontal_outer: map("rangeMapHorizontalOuter"),
@@ -214,7 +235,7 @@ fn look_at(json: &Json) -> LookAt {
     }
 }
 
-/// Degrees to radians; the output is an angle only where bones turn.
+/// The straight map; degrees to radians. The output is an angle only where bones turn.
 pub(super) fn range_map(json: &Json, input: &str, output: &str, uses_bones: bool) -> RangeMap {
     let output_scale = json.f32_or(output, if uses_bones { 10.0 } else { 1.0 });
     RangeMap {
@@ -224,5 +245,6 @@ pub(super) fn range_map(json: &Json, input: &str, output: &str, uses_bones: bool
         } else {
             output_scale
         },
+        curve: Vec::new(),
     }
 }

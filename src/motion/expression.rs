@@ -1,17 +1,58 @@
 //! Facial expressions of VRM 1.0 (`VRMC_vrm.expressions`): weights to morphs and material changes.
 
-use super::Pose;
+use super::{Pose, Skeleton};
 use crate::{
     Error, Result,
     scene::{Expression, ExpressionOverride, Scene},
 };
 
-const BLINK: &[&str] = &["blink", "blinkLeft", "blinkRight"];
-const LOOK_AT: &[&str] = &["lookUp", "lookDown", "lookLeft", "lookRight"];
-const MOUTH: &[&str] = &["aa", "ih", "ou", "ee", "oh"];
+/// A kind of expression, and how others may override it.
+type Kind = (&'static [&'static str], fn(&Expression) -> ExpressionOverride);
+
+const KINDS: [Kind; 3] = [
+    (&["blink", "blinkLeft", "blinkRight"], |e| e.override_blink),
+    (&["lookUp", "lookDown", "lookLeft", "lookRight"], |e| e.override_look_at),
+    (&["aa", "ih", "ou", "ee", "oh"], |e| e.override_mouth),
+];
+
+/// Turns what is asked of each expression into what shows of it: clamped to 0..1, binary ones rounded at 0.5, then faded or
+/// blocked by others. What overrides its own kind does not.
+pub(crate) fn resolve(expressions: &[Expression], weights: &mut [f32]) {
+    for (weight, expression) in weights.iter_mut().zip(expressions) {
+        // NaN is nothing.
+        *weight = weight.max(0.0).min(1.0);
+        if expression.is_binary {
+            *weight = f32::from(u8::from(*weight > 0.5));
+        }
+    }
+    let amounts = KINDS.map(|(kind, of)| {
+        let others = expressions.iter().zip(&*weights).filter(|(e, _)| !kind.contains(&e.name.as_str()));
+        let sum: f32 = others
+            .map(|(e, &w)| match of(e) {
+                ExpressionOverride::None => 0.0,
+                ExpressionOverride::Block => f32::from(u8::from(w > 0.0)),
+                ExpressionOverride::Blend => w,
+            })
+            .sum();
+        sum.min(1.0)
+    });
+    for (weight, expression) in weights.iter_mut().zip(expressions) {
+        for ((kind, _), amount) in KINDS.iter().zip(amounts) {
+            if amount > 0.0 && kind.contains(&expression.name.as_str()) {
+                // A binary expression is whole or off, even where another one fades it.
+                *weight = if expression.is_binary {
+                    0.0
+                } else {
+                    *weight * (1.0 - amount)
+                };
+            }
+        }
+    }
+}
 
 impl Pose {
-    /// Sets facial expressions; those not named are off. Weights are clamped to 0..1.
+    /// Sets facial expressions; those not named are off. Weights are clamped to 0..1. Morphs that expressions drive start at 0;
+    /// where nothing is expressed, all are as the file has them.
     ///
     /// Binary expressions round at 0.5, and expressions that block or blend blinking, gaze or the mouth do so, as VRM
     /// 1.0 rules. What they do to pupils ([`Pupils::expressions`](crate::scene::Pupils::expressions)) is multiplied.
@@ -23,65 +64,21 @@ impl Pose {
         let mut input = vec![0f32; expressions.len()];
         for (name, weight) in weights {
             let Some(index) = expressions.iter().position(|e| e.name == *name) else {
-                let known: Vec<_> = expressions.iter().map(|e| e.name.as_str()).collect();
-                let known = if known.is_empty() {
-                    "none".to_owned()
-                } else {
-                    known.join(", ")
-                };
-                return Err(Error::Argument {
-                    what: format!("expression {name:?}"),
-                    message: format!("the model has no such expression; it has: {known}"),
-                });
+                return Err(unknown(name, expressions));
             };
-            input[index] = if weight.is_finite() {
-                weight.clamp(0.0, 1.0)
-            } else {
-                0.0
-            };
+            input[index] = *weight;
         }
-        for (weight, expression) in input.iter_mut().zip(expressions) {
-            if expression.is_binary {
-                *weight = if *weight > 0.5 { 1.0 } else { 0.0 };
-            }
-        }
-
-        let keep = |of: fn(&Expression) -> ExpressionOverride| {
-            let suppressed: f32 = expressions
-                .iter()
-                .zip(&input)
-                .map(|(e, &w)| match of(e) {
-                    ExpressionOverride::None => 0.0,
-                    ExpressionOverride::Block => f32::from(u8::from(w > 0.0)),
-                    ExpressionOverride::Blend => w,
-                })
-                .sum();
-            1.0 - suppressed.min(1.0)
-        };
-        let (blink, look_at, mouth) =
-            (keep(|e| e.override_blink), keep(|e| e.override_look_at), keep(|e| e.override_mouth));
+        resolve(expressions, &mut input);
         self.morph_weights = scene.nodes.iter().map(|n| n.morph_weights.clone()).collect();
         self.shifts.clear();
         self.pupil_scale = 1.0;
+        if input.iter().any(|weight| *weight > 0.0) {
+            let bound = expressions.iter().flat_map(|e| &e.morphs);
+            bound.for_each(|bind| self.set_morph(bind.node, bind.target, 0.0));
+        }
         for (expression, &weight) in expressions.iter().zip(&input) {
-            let name = expression.name.as_str();
-            let mut factor = 1.0;
-            for (group, kept) in [(BLINK, blink), (LOOK_AT, look_at), (MOUTH, mouth)] {
-                if group.contains(&name) {
-                    factor *= kept;
-                }
-            }
-            // A binary expression is whole or off, even where another one fades it.
-            let weight = if expression.is_binary && factor < 1.0 {
-                0.0
-            } else {
-                weight * factor
-            };
-            if weight > 0.0 {
-                self.add_expression(expression, weight);
-                let factor = scene.pupils.as_ref().and_then(|p| p.expressions.get(name)).unwrap_or(&1.0);
-                self.pupil_scale *= 1.0 + (factor - 1.0) * weight;
-            }
+            let pupil = scene.pupils.as_ref().and_then(|p| p.expressions.get(&expression.name)).unwrap_or(&1.0);
+            self.add_expression(expression, weight, *pupil);
         }
         Ok(())
     }
@@ -96,7 +93,28 @@ impl Pose {
         let _ = self.set_expressions(scene, &known);
     }
 
-    fn add_expression(&mut self, expression: &Expression, weight: f32) {
+    /// Shows weights that are [`resolve`]d; morphs that no expression drives stay as they are.
+    pub(crate) fn show_expressions(&mut self, skeleton: &Skeleton, weights: &[f32]) {
+        for &(node, target) in &skeleton.bound {
+            self.set_morph(node as usize, target as usize, 0.0);
+        }
+        self.shifts.clear();
+        self.pupil_scale = 1.0;
+        for ((expression, weight), pupil) in skeleton.expressions.iter().zip(weights).zip(&skeleton.pupils) {
+            self.add_expression(expression, *weight, *pupil);
+        }
+    }
+
+    fn set_morph(&mut self, node: usize, target: usize, weight: f32) {
+        if let Some(slot) = self.morph_weights.get_mut(node).and_then(|n| n.get_mut(target)) {
+            *slot = weight;
+        }
+    }
+
+    fn add_expression(&mut self, expression: &Expression, weight: f32, pupil: f32) {
+        if weight == 0.0 {
+            return;
+        }
         for bind in &expression.morphs {
             if let Some(w) = self.morph_weights.get_mut(bind.node).and_then(|n| n.get_mut(bind.target)) {
                 *w += bind.weight * weight;
@@ -104,5 +122,20 @@ impl Pose {
         }
         self.shifts.colors.extend(expression.colors.iter().map(|bind| (*bind, weight)));
         self.shifts.uvs.extend(expression.uv_transforms.iter().map(|bind| (*bind, weight)));
+        self.pupil_scale *= 1.0 + (pupil - 1.0) * weight;
+    }
+}
+
+/// The error that names those that there are.
+pub(crate) fn unknown(name: &str, expressions: &[Expression]) -> Error {
+    let known: Vec<_> = expressions.iter().map(|e| e.name.as_str()).collect();
+    let known = if known.is_empty() {
+        "none".to_owned()
+    } else {
+        known.join(", ")
+    };
+    Error::Argument {
+        what: format!("expression {name:?}"),
+        message: format!("the model has no such expression; it has: {known}"),
     }
 }

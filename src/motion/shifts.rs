@@ -32,12 +32,16 @@ impl Shifts {
             let (from, to) = (color_of(rest, bind.target), bind.value);
             add_color(&mut material, bind.target, std::array::from_fn(|i| (to[i] - from[i]) * weight));
         }
-        for (bind, weight) in self.uvs.iter().filter(|(bind, _)| bind.material == index) {
+        if self.uvs.iter().any(|(bind, _)| bind.material == index) {
             material.each_texture(&mut |_, read, texture| {
                 // All but those that do not lie on the surface: the matcap and ramps.
-                for axis in (0..2).filter(|_| read.by_uv) {
-                    texture.transform.scale[axis] += (bind.scale[axis] - 1.0) * weight;
-                    texture.transform.offset[axis] += bind.offset[axis] * weight;
+                let rest = texture.transform;
+                let moved = self.uvs.iter().filter(|(bind, _)| bind.material == index && read.by_uv);
+                for (bind, weight) in moved {
+                    for axis in 0..2 {
+                        texture.transform.scale[axis] += (bind.scale[axis] - rest.scale[axis]) * weight;
+                        texture.transform.offset[axis] += (bind.offset[axis] - rest.offset[axis]) * weight;
+                    }
                 }
             });
         }

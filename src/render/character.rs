@@ -18,6 +18,7 @@ use super::pass::{glow, irradiance, irradiance_uv, prepass, velocity};
 use super::skin_layers::SkinPart;
 use super::variants::{Bound, Drawn, Request, Variant, Variants};
 use crate::material::Material;
+use crate::motion::Skeleton;
 use crate::scene::Scene;
 use crate::{Gpu, Result};
 
@@ -33,6 +34,7 @@ pub(crate) struct CharacterData {
     pub made_by: (Gpu, Output),
     /// Without images, and of the meshes with what measures them alone.
     pub scene: Scene,
+    pub skeleton: Skeleton,
     pub static_vertices: wgpu::Buffer,
     pub indices: wgpu::Buffer,
     /// What it sees of itself.
@@ -117,6 +119,12 @@ impl Character {
     #[must_use]
     pub fn scene(&self) -> &Scene {
         &self.0.scene
+    }
+
+    /// What moves of it.
+    #[must_use]
+    pub fn skeleton(&self) -> &Skeleton {
+        &self.0.skeleton
     }
 
     /// Draw calls of the colour pass with everything in view, outlines and coats of fluff included.

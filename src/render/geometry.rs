@@ -13,7 +13,7 @@ use crate::{
     eye::{EyeVertex, Eyes},
     hair::{self, HairStrips, NoStrips},
     material::{AlphaMode, Blending, Material},
-    scene::{FirstPerson, HumanBone, Influences, MorphTarget, Primitive, Role, Scene},
+    scene::{HumanBone, Influences, MorphTarget, Primitive, Role, Scene, Sight},
     skin,
 };
 
@@ -109,7 +109,7 @@ impl Geometry {
         geometry.rig.head_middle = middle.unwrap_or_default();
         let mut skin_palettes: HashMap<usize, u32> = HashMap::new();
         let mut parts: Vec<(u32, usize, &Primitive, DeformGroup, Mat4)> = Vec::new();
-        let in_head = below_head(scene);
+        let in_head = scene.below_head();
         for (node_index, mesh) in scene.mesh_nodes() {
             let node = &scene.nodes[node_index];
             let skin = node.skin.and_then(|s| scene.skins.get(s));
@@ -168,7 +168,7 @@ impl Geometry {
         // What is drawn on skin lies on it, and hides nothing from it.
         let is_on_skin = |p: &Primitive| matches!(p.role, Role::Lash | Role::Brow | Role::EyeHighlight);
         let hides = |node: usize, p: &Primitive| {
-            !is_skin(p) && !blend(p) && !is_on_skin(p) && sight(scene, &in_head, node).others
+            !is_skin(p) && !blend(p) && !is_on_skin(p) && Sight::of(scene, &in_head, node).others
         };
         let hides = parts.iter().filter(|part| hides(part.1, part.2));
         let hiding: Vec<_> = hides.map(|part| at_rest(part.1, part.2, part.4)).collect();
@@ -176,7 +176,7 @@ impl Geometry {
         let mut skin = skin::measured(&skin, &hiding, scales.fold(f32::MAX, f32::min)).into_iter();
         geometry.push_eyes(eyes, &parts);
         for (id, node, primitive, group, rest_matrix) in &parts {
-            let sight = sight(scene, &in_head, *node);
+            let sight = Sight::of(scene, &in_head, *node);
             let material = scene.materials.get(primitive.material);
             // Found where something asks for them, once for all that do.
             let strips = LazyCell::new(|| HairStrips::of(primitive, *rest_matrix, middle));
@@ -350,51 +350,6 @@ struct Prepared<'a> {
     /// Places in eyes.
     eyes: Option<&'a [EyeVertex]>,
 }
-
-/// Nodes that are the head or hang on it; empty without a character.
-fn below_head(scene: &Scene) -> Vec<bool> {
-    let Some(head) = scene.bone_node(HumanBone::Head) else { return Vec::new() };
-    let mut below = vec![false; scene.nodes.len()];
-    for (i, node) in scene.nodes.iter().enumerate() {
-        // Parents stand before their children.
-        below[i] = i == head || node.parent.is_some_and(|p| below[p]);
-    }
-    below
-}
-
-/// Who sees a part (VRM 1.0, `firstPerson`).
-struct Sight {
-    others: bool,
-    own: bool,
-    /// Joints of the head, where triangles that they move are before the character's own eyes.
-    head: Vec<bool>,
-}
-
-impl Sight {
-    fn is_of_head(&self, primitive: &Primitive, vertex: usize) -> bool {
-        let Influences { per_vertex, joints, weights } = &primitive.influences;
-        let at = vertex * per_vertex..(vertex + 1) * per_vertex;
-        let moving = joints.get(at.clone()).unwrap_or_default().iter().zip(weights.get(at).unwrap_or_default());
-        let is_head = |joint: &u16| self.head.get(usize::from(*joint)).copied().unwrap_or(false);
-        moving.into_iter().any(|(joint, weight)| *weight > 0.0 && is_head(joint))
-    }
-}
-
-/// Who sees the parts of a node.
-fn sight(scene: &Scene, in_head: &[bool], node: usize) -> Sight {
-    let of =
-        scene.character.as_ref().map_or(FirstPerson::Both, |c| c.first_person.get(&node).copied().unwrap_or_default());
-    let auto = of == FirstPerson::Auto;
-    let skin = scene.nodes[node].skin.and_then(|s| scene.skins.get(s)).filter(|_| auto);
-    let is_head = |node: &usize| in_head.get(*node).copied().unwrap_or(false);
-    let is_head_part = auto && skin.is_none() && is_head(&node);
-    Sight {
-        others: of != FirstPerson::FirstPersonOnly,
-        own: scene.character.is_some() && of != FirstPerson::ThirdPersonOnly && !is_head_part,
-        head: skin.map_or_else(Vec::new, |skin| skin.joints.iter().map(is_head).collect()),
-    }
-}
-
 /// Spheres round eyes and hair, as far as those are seen through this.
 fn eyes_and_hair(scene: &Scene, parts: &[Part]) -> Option<[(Vec3, f32); 2]> {
     scene.eyes_through?;

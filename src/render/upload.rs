@@ -19,7 +19,7 @@ use super::{Renderer, bind, uv_metric};
 use crate::eye::Eyes;
 use crate::hair::holds_flow;
 use crate::material::{Encoding, Generated, MAX_SHELLS, Material, Surroundings, out_of_range};
-use crate::motion::Driven;
+use crate::motion::{Driven, Skeleton};
 use crate::scene::{Image, Mesh, Primitive, Scene};
 use crate::sdf::FaceMap;
 use crate::stage::crowd::Crowd;
@@ -188,6 +188,7 @@ impl Renderer {
         let data = CharacterData {
             made_by: (gpu.clone(), self.output),
             scene: measured(scene),
+            skeleton: Skeleton::of(scene),
             static_vertices,
             indices,
             first_person,
@@ -378,6 +379,7 @@ fn measured(scene: &Scene) -> Scene {
         images: scene.images.iter().map(image).collect(),
         face_maps: scene.face_maps.iter().map(FaceMap::without_texels).collect(),
         animations: scene.animations.clone(),
+        animation_rig: scene.animation_rig.clone(),
         character: scene.character.clone(),
         lights: scene.lights.clone(),
         bangs: scene.bangs,

@@ -1,4 +1,8 @@
-//! Animation clips as stored in a glTF file.
+//! Animation clips as stored in a glTF file, and what those of a VRMA move.
+
+use std::collections::BTreeMap;
+
+use super::HumanBone;
 
 /// A clip.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -20,6 +24,20 @@ pub struct AnimationChannel {
     pub interpolation: Interpolation,
     /// Key values.
     pub values: AnimationValues,
+}
+
+/// What nodes of a file of humanoid movements (`VRMC_vrm_animation`) stand for; its clips move any character.
+///
+/// Eyes and the gaze expressions (`lookUp` and its kin) never stand in it: both follow [`look_at`](Self::look_at).
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct AnimationRig {
+    /// Humanoid bones and their nodes: rotations count, and the translation of the hips.
+    pub bones: BTreeMap<HumanBone, usize>,
+    /// Expressions, presets and custom ones by name, each with the node whose x of the translation is the weight, to be clamped
+    /// to 0..1.
+    pub expressions: Vec<(String, usize)>,
+    /// The node whose local rotation is the gaze, from straight ahead. `None`: clips do not move the gaze.
+    pub look_at: Option<usize>,
 }
 
 /// Interpolation between keys (glTF 2.0, appendix C).

@@ -192,9 +192,9 @@ pub struct UvBind {
 }
 
 /// How the gaze moves the eyes.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct LookAt {
-    /// Origin of the gaze relative to the head bone, metres.
+    /// Origin of the gaze relative to the head bone, metres. Default of files of VRM 1.0: 0.06 above it.
     pub offset_from_head: Vec3,
     /// Whether eye bones turn (`true`) or gaze expressions are driven.
     pub uses_bones: bool,
@@ -208,13 +208,66 @@ pub struct LookAt {
     pub vertical_up: RangeMap,
 }
 
-/// Linear map of a gaze angle: `0..=input_max_rad` to `0..=output_scale`.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+/// Map of a gaze angle: `0..=input_max_rad` to `0..=output_scale`.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct RangeMap {
-    /// Gaze angle of full effect, radians; 0 switches the map off.
+    /// Gaze angle of full effect, radians; with 0 any gaze has the full effect. Range 0... Default of files: π/2.
     pub input_max_rad: f32,
-    /// Effect: radians of eye bone rotation, or expression weight.
+    /// Full effect: radians of eye bone rotation, or expression weight. Default of files: 10° or 1.
     pub output_scale: f32,
+    /// Share of the full effect over the share of the full angle, keys in order of time; empty for the angle's own share. Only
+    /// VRM 0.x has such curves.
+    pub curve: Vec<CurveKey>,
+}
+
+/// One key of a curve of Unity's: a cubic Hermite spline.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct CurveKey {
+    /// Where it is.
+    pub time: f32,
+    /// Value there.
+    pub value: f32,
+    /// Slope towards the key before, value by time.
+    pub in_tangent: f32,
+    /// Slope towards the next key, value by time.
+    pub out_tangent: f32,
+}
+
+/// Least full angle of a [`RangeMap`], degrees.
+const LEAST_INPUT_MAX_DEG: f32 = 0.001;
+
+impl RangeMap {
+    /// The effect of a gaze angle, whatever its sign: radians or weight, 0 for no angle unless the curve says otherwise.
+    #[must_use]
+    pub fn map(&self, angle_rad: f32) -> f32 {
+        if angle_rad.is_nan() {
+            return 0.0;
+        }
+        let share = (angle_rad.abs() / self.input_max_rad.max(LEAST_INPUT_MAX_DEG.to_radians())).min(1.0);
+        let curved = curve_at(&self.curve, share) * self.output_scale;
+        // Keys may be as far apart as numbers go.
+        if curved.is_finite() {
+            curved
+        } else {
+            share * self.output_scale
+        }
+    }
+}
+
+/// Value of a curve; that of the nearest key outside of them, the place itself without keys.
+fn curve_at(keys: &[CurveKey], time: f32) -> f32 {
+    let next = keys.partition_point(|key| key.time <= time);
+    let before = next.checked_sub(1).and_then(|i| keys.get(i));
+    let (a, b) = match (before, keys.get(next)) {
+        (Some(a), Some(b)) => (a, b),
+        (Some(key), None) | (None, Some(key)) => return key.value,
+        (None, None) => return time,
+    };
+    let span = b.time - a.time;
+    let u = (time - a.time) / span;
+    let (u2, u3) = (u * u, u * u * u);
+    let tangents = (u3 - 2.0 * u2 + u) * a.out_tangent + (u3 - u2) * b.in_tangent;
+    (2.0 * u3 - 3.0 * u2 + 1.0) * a.value + (3.0 * u2 - 2.0 * u3) * b.value + span * tangents
 }
 
 /// Visibility of a mesh in first-person views.
@@ -241,7 +294,7 @@ pub struct Spring {
     pub joints: Vec<SpringJoint>,
     /// Node in whose space inertia is measured; `None` for the world.
     pub center: Option<usize>,
-    /// Indices in [`Character::colliders`].
+    /// Indices in [`Character::colliders`], each once, in the order in which they push: that of the file's groups.
     pub colliders: Vec<usize>,
 }
 
@@ -250,15 +303,16 @@ pub struct Spring {
 pub struct SpringJoint {
     /// Its node.
     pub node: usize,
-    /// Radius against colliders, metres.
+    /// Radius against colliders, metres. Range 0... Default of files: 0.
     pub hit_radius: f32,
-    /// Pull back to rest. Range 0...
+    /// Pull back to rest. Range 0... Default of files: 1.
     pub stiffness: f32,
-    /// Strength of gravity.
+    /// Strength of gravity; a negative one lifts. Default of files: 0.
     pub gravity_power: f32,
-    /// Unit direction of gravity, world space.
+    /// Direction of gravity, world space. Its length counts as in the file: gravity is this times the strength, so zero is none.
+    /// Default of files: (0, -1, 0).
     pub gravity_dir: Vec3,
-    /// Share of velocity lost a step. Range 0..1.
+    /// Share of velocity lost a step. Range 0..1. Default of files: 0.5.
     pub drag: f32,
 }
 

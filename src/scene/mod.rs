@@ -9,6 +9,7 @@ mod character;
 mod check;
 mod environment;
 mod eyes_through;
+mod first_person;
 mod head;
 mod light;
 mod mesh;
@@ -18,13 +19,14 @@ mod role;
 mod self_shadow;
 mod texture;
 
-pub use animation::{Animation, AnimationChannel, AnimationValues, Interpolation};
+pub use animation::{Animation, AnimationChannel, AnimationRig, AnimationValues, Interpolation};
 pub use bangs::Bangs;
 pub(crate) use camera::DepthRange;
 pub use camera::{Camera, Framing};
 pub use character::*;
 pub use environment::{Environment, MAX_RADIANCE, Radiance};
 pub use eyes_through::EyesThrough;
+pub(crate) use first_person::Sight;
 pub use light::{Ambient, DirectionalLight, Lights, MAX_PUNCTUAL_LIGHTS, PunctualLight, SpotCone};
 pub use mesh::{Influences, Mesh, MorphTarget, Primitive, Skin};
 pub use post::{Antialias, Bloom, Post, ToneCurve};
@@ -59,6 +61,8 @@ pub struct Scene {
     pub face_maps: Vec<FaceMap>,
     /// Animation clips stored in the file.
     pub animations: Vec<Animation>,
+    /// What the nodes that clips move stand for, in a file of humanoid movements (VRMA). `None`: such a file it is not.
+    pub animation_rig: Option<AnimationRig>,
     /// VRM data: bones, expressions, look-at, springs. `None` for a plain glTF file.
     pub character: Option<Character>,
     /// Lights that a look asks for; [`Stage::of`](crate::Stage::of) takes those of its first actor. `None`: the default ones.

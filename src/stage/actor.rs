@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use glam::{Mat4, Quat, Vec3};
 
 use crate::material::Material;
-use crate::motion::Pose;
+use crate::motion::{Animator, Pose};
 use crate::render::Character;
 
 /// A character on a stage, in a place and a pose of its own.
@@ -16,8 +16,13 @@ pub struct Actor {
     pub character: Character,
     /// `world_from_character`: rotates, moves and scales evenly. Default: identity; characters face +Z.
     pub world: Mat4,
-    /// How it is posed. Default: rest.
+    /// How it is posed. Default: rest. [`Actor::update`] writes it anew.
     pub pose: Pose,
+    /// What moves it. Default: nothing but springs.
+    pub animator: Animator,
+    /// Frames for each of which [`Stage::update`](crate::Stage::update) moves it once, by the time of all of them: 2 for every
+    /// second one. Range 1... Default: 1.
+    pub every: u32,
     /// Materials that it has otherwise than its character, by index ([`Actor::edit`]): colours and numbers of sections, amounts
     /// of fading or dissolving. Expressions shift these in turn. What was settled at the upload stays: sections that were off,
     /// options, textures ([`Renderer::replace_base_texture`](crate::Renderer::replace_base_texture)), alpha mode. Default: none.
@@ -27,6 +32,8 @@ pub struct Actor {
     pub key_light: f32,
     /// What tells it from others of its character.
     pub(crate) id: u64,
+    /// Time that has passed since it was moved last, seconds.
+    pub(super) waiting_s: f32,
 }
 
 static NEXT: AtomicU64 = AtomicU64::new(0);
@@ -41,9 +48,12 @@ impl Actor {
             character: character.clone(),
             world: Mat4::IDENTITY,
             pose,
+            animator: Animator::default(),
+            every: 1,
             materials: BTreeMap::new(),
             key_light: 1.0,
             id,
+            waiting_s: 0.0,
         }
     }
 
@@ -60,10 +70,24 @@ impl Actor {
         Some(self.materials.entry(material).or_insert_with(|| source.clone()))
     }
 
-    /// The same in a pose.
+    /// The same in a pose, which its clips begin from.
     #[must_use]
     pub fn posed(mut self, pose: Pose) -> Self {
+        self.animator.base = Some(pose.clone());
         self.pose = pose;
         self
+    }
+
+    /// Moves it on by a time, seconds: clips, gaze, blinking, expressions, constraints, springs, in this order
+    /// ([`Animator::update`]). Writes [`Actor::pose`], and moves [`Actor::world`] by clips whose way is the actor's.
+    pub fn update(&mut self, dt: f32) {
+        let Self { character, animator, world, pose, .. } = self;
+        animator.update(character.skeleton(), world, pose, dt);
+    }
+
+    /// Puts it elsewhere, its hair and clothes with it: setting [`Actor::world`] alone would throw them through the room.
+    pub fn jump_to(&mut self, world: Mat4) {
+        self.animator.warp(self.character.skeleton(), &self.world, &world);
+        self.world = world;
     }
 }

@@ -9,6 +9,7 @@ pub(crate) mod maps;
 pub(crate) mod past;
 mod shadow;
 pub(crate) mod troupe;
+mod update;
 mod volume;
 
 pub use actor::Actor;
@@ -43,6 +44,8 @@ pub struct Stage {
     pub focus: Option<Vec3>,
     /// Draws what all actors cast into one map, for the shaders of a host. Default: false.
     pub casts_on_world: bool,
+    /// How often it has been moved.
+    frames: u64,
     pub(crate) bodies: Bodies,
 }
 

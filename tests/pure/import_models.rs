@@ -68,6 +68,24 @@ fn every_shared_model_loads() {
     }
 }
 
+/// Files of movements, of several exporters.
+#[test]
+fn every_shared_movement_loads() {
+    let Some(folder) = folder() else { return };
+    let folders = [folder.clone(), folder.join("../motion/models")];
+    let entries = folders.iter().filter_map(|f| std::fs::read_dir(f).ok()).flatten();
+    let paths = entries.map(|e| e.expect("an entry").path());
+    let list: Vec<PathBuf> = paths.filter(|p| p.extension().is_some_and(|e| e == "vrma")).collect();
+    assert!(list.len() >= 2, "{list:?}");
+    for path in list {
+        let scene = hikage::import::load(&path).unwrap_or_else(|e| panic!("{e}"));
+        let name = path.display();
+        let rig = scene.animation_rig.as_ref().unwrap_or_else(|| panic!("{name}: no rig"));
+        assert!(rig.bones.len() >= 17 && !scene.animations[0].channels.is_empty(), "{name}");
+        assert!(scene.warnings.is_empty(), "{name}: {:?}", scene.warnings);
+    }
+}
+
 /// The gltf crate reads the same triangles at the same places: an independent reader of good files.
 #[test]
 fn geometry_agrees_with_the_gltf_crate() {

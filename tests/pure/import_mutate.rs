@@ -6,7 +6,7 @@ use std::time::Instant;
 use hikage::import::{Limits, load_bytes};
 use serde_json::{Value, json};
 
-use crate::gltf::{self, F32, Glb, U8, floats, picture};
+use crate::gltf::{self, F32, Glb, I16, U8, floats, picture, shorts};
 
 const EXECUTIONS: u64 = 200_000;
 
@@ -73,13 +73,32 @@ fn seeds() -> Vec<Glb> {
     vrm1.primitive()["targets"] = json!([{"POSITION": target}]);
     vrm1.push("materials", json!({"name": "face", "extensions": {"VRMC_materials_mtoon": {"specVersion": "1.0", "outlineWidthMode": "worldCoordinates"}}}));
     vrm1.primitive()["material"] = json!(0);
-    vrm1.json["nodes"][2]["extensions"] =
-        json!({"VRMC_node_constraint": {"constraint": {"roll": {"source": 3, "rollAxis": "X"}}}});
-    vrm1.json["extensions"]["VRMC_vrm"]["expressions"] = json!({"preset": {"happy": {
-        "morphTargetBinds": [{"node": 0, "index": 0, "weight": 1}], "materialColorBinds": [{"material": 0, "type": "color", "targetValue": [1, 0, 0, 1]}]}}});
+    let constraints = [
+        (2, json!({"roll": {"source": 3, "rollAxis": "X"}})),
+        (3, json!({"aim": {"source": head, "aimAxis": "NegativeZ", "weight": 0.5}})),
+        (4, json!({"rotation": {"source": 1}})),
+        // A circle.
+        (5, json!({"rotation": {"source": 6}})),
+        (6, json!({"roll": {"source": 5, "rollAxis": "Y"}})),
+    ];
+    for (node, constraint) in constraints {
+        vrm1.json["nodes"][node]["extensions"] = json!({"VRMC_node_constraint": {"constraint": constraint}});
+    }
+    let ext = &mut vrm1.json["extensions"]["VRMC_vrm"];
+    ext["expressions"] = json!({"preset": {
+        "happy": {"morphTargetBinds": [{"node": 0, "index": 0, "weight": 1}], "overrideBlink": "blend",
+                  "materialColorBinds": [{"material": 0, "type": "color", "targetValue": [1, 0, 0, 1]}]},
+        "blink": {"isBinary": true, "overrideBlink": "block", "textureTransformBinds": [{"material": 0, "scale": [1, 2]}]}}});
+    ext["lookAt"] = json!({"type": "bone", "offsetFromHeadBone": [0, 0.1, 0], "rangeMapVerticalUp": {"inputMaxValue": 60, "outputScale": 5}});
+    ext["firstPerson"] =
+        json!({"meshAnnotations": [{"node": 0, "type": "thirdPersonOnly"}, {"node": 1, "type": "auto"}]});
+    let extended = |shape: Value| json!({"node": 1, "shape": {"sphere": {"radius": 1}}, "extensions": {"VRMC_springBone_extended_collider": {"shape": shape}}});
     vrm1.json["extensions"]["VRMC_springBone"] = json!({
-        "colliders": [{"node": 1, "shape": {"sphere": {"radius": 1}}}], "colliderGroups": [{"colliders": [0]}],
-        "springs": [{"joints": [{"node": head - 1}, {"node": head}], "colliderGroups": [0]}]});
+        "colliders": [{"node": 1, "shape": {"capsule": {"radius": 1, "tail": [0, 1, 0]}}}, extended(json!({"plane": {"normal": [0, 1, 0]}})),
+                      extended(json!({"sphere": {"radius": 2, "inside": true}}))],
+        "colliderGroups": [{"colliders": [2, 0]}, {"colliders": [1, 0]}],
+        "springs": [{"joints": [{"node": head - 2, "gravityPower": 1, "gravityDir": [0, -2, 0]}, {"node": head - 1, "hitRadius": 0.1}, {"node": head}],
+                     "colliderGroups": [1, 0], "center": 1}]});
 
     let mut vrm0 = Glb::triangle();
     vrm0.push("nodes", json!({"name": "hips", "children": [2], "translation": [0, 1, 0]}));
@@ -89,8 +108,11 @@ fn seeds() -> Vec<Glb> {
         "humanoid": {"humanBones": [{"bone": "hips", "node": 1}, {"bone": "head", "node": 2}]},
         "materialProperties": [{"shader": "VRM/MToon", "floatProperties": {"_ShadeToony": 0.9}, "vectorProperties": {"_Color": [1, 1, 1, 1]},
                                 "keywordMap": {"_ALPHABLEND_ON": true}, "renderQueue": 3000}],
-        "blendShapeMaster": {"blendShapeGroups": [{"presetName": "joy", "binds": [{"mesh": 0, "index": 0, "weight": 50}]}]},
-        "secondaryAnimation": {"colliderGroups": [{"node": 2, "colliders": [{"radius": 0.5}]}], "boneGroups": [{"bones": [1], "colliderGroups": [0]}]}});
+        "blendShapeMaster": {"blendShapeGroups": [{"presetName": "joy", "binds": [{"mesh": 0, "index": 0, "weight": 50}],
+            "materialValues": [{"materialName": "a", "propertyName": "_MainTex_ST", "targetValue": [1, 2, 0, 0.5]}]}]},
+        "firstPerson": {"firstPersonBoneOffset": {"x": 0, "y": 0.1, "z": 0}, "lookAtTypeName": "BlendShape", "meshAnnotations": [{"mesh": 0, "firstPersonFlag": "ThirdPersonOnly"}],
+            "lookAtVerticalUp": {"xRange": 40, "yRange": 2, "curve": [0, 0, 0, 0.5, 0.5, 0.3, 1, 2, 1, 1, 0, 0]}},
+        "secondaryAnimation": {"colliderGroups": [{"node": 2, "colliders": [{"radius": 0.5}]}], "boneGroups": [{"bones": [1], "colliderGroups": [0], "gravityPower": 1, "gravityDir": {"x": 0, "y": -1, "z": 0}, "center": 0}]}});
 
     let mut packed = Glb::triangle();
     let data = meshopt::encode_vertex_buffer(&[[0f32, 0., 0.], [1., 0., 0.], [0., 1., 0.]]).expect("encodes");
@@ -102,7 +124,49 @@ fn seeds() -> Vec<Glb> {
     let values = packed.view(&floats(&[2., 2., 2.]));
     packed.json["accessors"][1]["sparse"] =
         json!({"count": 1, "indices": {"bufferView": at, "componentType": U8}, "values": {"bufferView": values}});
-    vec![skinned, textured, vrm1, vrm0, packed]
+    vec![skinned, textured, vrm1, vrm0, packed, moving(), movement()]
+}
+
+/// Keys of every kind for every property.
+fn moving() -> Glb {
+    let mut glb = Glb::triangle();
+    let target = glb.accessor(F32, "VEC3", &floats(&[0.1; 9]), 3, false);
+    glb.primitive()["targets"] = json!([{"POSITION": target}]);
+    glb.push("nodes", json!({"matrix": glam::Mat4::IDENTITY.to_cols_array()}));
+    glb.json["nodes"][0]["children"] = json!([1]);
+    let times = glb.accessor(F32, "SCALAR", &floats(&[0., 0.5]), 2, false);
+    let outputs = [
+        (glb.accessor(F32, "VEC3", &floats(&[0., 1., 0., 1., 0., 0.]), 2, false), "STEP", 0, "translation"),
+        (glb.accessor(I16, "VEC4", &shorts(&[0, 0, 0, 32767, 0, 32767, 0, 0]), 2, true), "LINEAR", 0, "rotation"),
+        (glb.accessor(F32, "VEC3", &floats(&[1.; 18]), 6, false), "CUBICSPLINE", 0, "scale"),
+        (glb.accessor(U8, "SCALAR", &[0, 255], 2, true), "LINEAR", 0, "weights"),
+        (glb.accessor(F32, "VEC4", &floats(&[0.5; 24]), 6, false), "CUBICSPLINE", 1, "rotation"),
+        (glb.accessor(F32, "VEC3", &floats(&[0., 1., 0., 1., 0., 0.]), 2, false), "LINEAR", 1, "translation"),
+    ];
+    let samplers = outputs.map(|(output, mode, ..)| json!({"input": times, "output": output, "interpolation": mode}));
+    let target = |(i, (_, _, node, path))| json!({"sampler": i, "target": {"node": node, "path": path}});
+    let channels: Vec<Value> = outputs.into_iter().enumerate().map(target).collect();
+    glb.push("animations", json!({"name": "all", "samplers": samplers, "channels": channels}));
+    glb
+}
+
+/// A file of movements: hips, head, an expression, the gaze.
+fn movement() -> Glb {
+    let mut glb = Glb::new();
+    glb.json = json!({
+        "asset": {"version": "2.0"}, "accessors": [], "bufferViews": [], "buffers": [{"byteLength": 0}],
+        "nodes": [{"translation": [0, 1, 0], "children": [1]}, {"rotation": [0, 0, 0, 1]}, {}, {}],
+        "extensions": {"VRMC_vrm_animation": {"specVersion": "1.0", "humanoid": {"humanBones": {"hips": {"node": 0}, "head": {"node": 1}}},
+            "expressions": {"preset": {"happy": {"node": 2}}, "custom": {"wink": {"node": 2}}}, "lookAt": {"node": 3}}}});
+    let times = glb.accessor(F32, "SCALAR", &floats(&[0., 0.5]), 2, false);
+    let places = glb.accessor(F32, "VEC3", &floats(&[0., 1., 0., 1., 0., 0.]), 2, false);
+    let turns = glb.accessor(F32, "VEC4", &floats(&[0., 0., 0., 1., 0., 1., 0., 0.]), 2, false);
+    let channels =
+        [(0, 0, "translation"), (1, 0, "rotation"), (1, 1, "rotation"), (0, 2, "translation"), (1, 3, "rotation")];
+    glb.push("animations", json!({
+        "samplers": [{"input": times, "output": places}, {"input": times, "output": turns, "interpolation": "STEP"}],
+        "channels": channels.map(|(sampler, node, path)| json!({"sampler": sampler, "target": {"node": node, "path": path}}))}));
+    glb
 }
 
 /// Flips, overwrites, cuts, repeats and inserts bytes.
@@ -179,6 +243,8 @@ fn odd_value(rng: &mut Rng) -> Value {
         json!({}),
         json!(""),
         json!("VEC3"),
+        json!("CUBICSPLINE"),
+        json!("weights"),
         json!("../x"),
         json!("data:,"),
         json!(true),

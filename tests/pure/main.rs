@@ -11,6 +11,7 @@ mod import;
 mod import_models;
 mod import_mutate;
 mod look_file;
+mod motion;
 mod profile_file;
 mod sdf;
 mod shaders;

@@ -3,6 +3,7 @@
 mod compression;
 mod materials;
 mod meshes;
+mod motion;
 mod vrm0;
 mod vrm1;
 

@@ -115,7 +115,7 @@ fn vrm0_characters_are_turned_and_converted() {
     assert!(close(&joy.colors[0].value, &[0.214_041_14, 0., 1., 0.5], 1e-6));
     assert!(close(&joy.uv_transforms[0].offset, &[0.1, 0.55], 1e-6));
     assert_eq!((character.expressions[1].name.as_str(), character.expressions[1].preset), ("Wink", false));
-    let look = character.look_at.expect("a gaze");
+    let look = character.look_at.as_ref().expect("a gaze");
     assert_eq!((look.offset_from_head, look.uses_bones), (Vec3::new(1., 2., -3.), true));
     assert!((look.horizontal_inner.output_scale - 10f32.to_radians()).abs() < 1e-6);
     let ColliderShape::Sphere { offset, .. } = character.colliders[0].shape else { panic!("a sphere") };

@@ -6,8 +6,11 @@ use glam::Vec3;
 use rayon::prelude::*;
 use serde_json::{Map, Value, json};
 
+use crate::animation::Animation;
+use crate::clips::Clip;
 use crate::mesh::Part;
 use crate::model::{Alpha, Material, Model};
+use crate::skeleton::Skeleton;
 use crate::vrm;
 
 const FLOAT: u32 = 5126;
@@ -18,7 +21,7 @@ const ELEMENT_ARRAY_BUFFER: u32 = 34963;
 
 /// The binary chunk and the views and accessors into it.
 #[derive(Default)]
-struct Binary {
+pub(crate) struct Binary {
     bytes: Vec<u8>,
     views: Vec<Value>,
     accessors: Vec<Value>,
@@ -44,9 +47,18 @@ impl Binary {
         self.accessors.len() - 1
     }
 
-    fn floats<const N: usize>(&mut self, values: &[[f32; N]], target: Option<u32>) -> usize {
+    pub(crate) fn floats<const N: usize>(&mut self, values: &[[f32; N]], target: Option<u32>) -> usize {
         let shape = ["", "SCALAR", "VEC2", "VEC3", "VEC4"].get(N).copied().unwrap_or("MAT4");
         self.accessor(&float_bytes(values), values.len(), FLOAT, shape, target)
+    }
+
+    /// Times of keys, which have bounds.
+    pub(crate) fn times(&mut self, times: &[f32]) -> usize {
+        let values: Vec<[f32; 1]> = times.iter().map(|t| [*t]).collect();
+        let index = self.floats(&values, None);
+        self.accessors[index]["min"] = json!([times.iter().copied().fold(f32::INFINITY, f32::min)]);
+        self.accessors[index]["max"] = json!([times.iter().copied().fold(0.0, f32::max)]);
+        index
     }
 
     fn positions(&mut self, values: &[[f32; 3]]) -> usize {
@@ -93,9 +105,9 @@ fn set_bounds(accessor: &mut Value, values: &[[f32; 3]]) {
     accessor["max"] = json!(max.unwrap_or_default().to_array());
 }
 
-/// Bytes of the GLB file.
+/// Bytes of the GLB file, with clips as animations of the bones. Weights of expressions are left out of them.
 #[must_use]
-pub fn write(model: &Model) -> Vec<u8> {
+pub fn write(model: &Model, clips: &[Clip]) -> Vec<u8> {
     let mut binary = Binary::default();
     let bones = model.skeleton.bones.len();
     let texture_index: BTreeMap<&str, usize> = model.textures.iter().enumerate().map(|(i, t)| (t.name, i)).collect();
@@ -122,21 +134,7 @@ pub fn write(model: &Model) -> Vec<u8> {
         .collect();
     let sampler = |wrap: u32| json!({ "magFilter": 9729, "minFilter": 9987, "wrapS": wrap, "wrapT": wrap });
 
-    let mut nodes: Vec<Value> = model
-        .skeleton
-        .bones
-        .iter()
-        .enumerate()
-        .map(|(i, bone)| {
-            let origin = bone.parent.map_or(Vec3::ZERO, |p| model.skeleton.bones[p].position);
-            let children: Vec<usize> = (0..bones).filter(|c| model.skeleton.bones[*c].parent == Some(i)).collect();
-            let mut node = json!({ "name": bone.name, "translation": (bone.position - origin).to_array() });
-            if !children.is_empty() {
-                node["children"] = json!(children);
-            }
-            node
-        })
-        .collect();
+    let mut nodes = model.skeleton.nodes();
     for (i, part) in model.parts.iter().enumerate() {
         nodes.push(json!({ "name": part.name, "mesh": i, "skin": 0 }));
     }
@@ -160,10 +158,32 @@ pub fn write(model: &Model) -> Vec<u8> {
             "VRMC_springBone": vrm::spring_bone(model),
         },
     });
-    document["accessors"] = Value::Array(std::mem::take(&mut binary.accessors));
-    document["bufferViews"] = Value::Array(std::mem::take(&mut binary.views));
-    document["buffers"] = json!([{ "byteLength": binary.bytes.len() }]);
-    container(&document, &binary.bytes)
+    let bone = |name: &str| model.skeleton.bones.iter().position(|b| b.name == name);
+    let animations: Vec<Value> =
+        clips.iter().map(|clip| Animation::of_bones(&mut binary, clip, bone).value(clip.name)).collect();
+    if !animations.is_empty() {
+        document["animations"] = Value::Array(animations);
+    }
+    container(document, binary)
+}
+
+impl Skeleton {
+    /// The bones as nodes, at rest.
+    pub(crate) fn nodes(&self) -> Vec<Value> {
+        self.bones
+            .iter()
+            .enumerate()
+            .map(|(i, bone)| {
+                let origin = bone.parent.map_or(Vec3::ZERO, |p| self.bones[p].position);
+                let children: Vec<usize> = (0..self.bones.len()).filter(|c| self.bones[*c].parent == Some(i)).collect();
+                let mut node = json!({ "name": bone.name, "translation": (bone.position - origin).to_array() });
+                if !children.is_empty() {
+                    node["children"] = json!(children);
+                }
+                node
+            })
+            .collect()
+    }
 }
 
 fn mesh(binary: &mut Binary, part: &Part, materials: &BTreeMap<&str, usize>) -> Value {
@@ -285,7 +305,12 @@ fn material(m: &Material, textures: &BTreeMap<&str, usize>) -> Value {
     value
 }
 
-fn container(document: &Value, binary: &[u8]) -> Vec<u8> {
+/// The file of a document and its binary chunk.
+pub(crate) fn container(mut document: Value, binary: Binary) -> Vec<u8> {
+    document["accessors"] = Value::Array(binary.accessors);
+    document["bufferViews"] = Value::Array(binary.views);
+    document["buffers"] = json!([{ "byteLength": binary.bytes.len() }]);
+    let binary = binary.bytes;
     let mut text = document.to_string().into_bytes();
     text.resize(text.len().next_multiple_of(4), b' ');
     let total = 12 + 8 + text.len() + 8 + binary.len();
@@ -299,6 +324,6 @@ fn container(document: &Value, binary: &[u8]) -> Vec<u8> {
     file.extend_from_slice(&text);
     word(&mut file, binary.len());
     file.extend_from_slice(b"BIN\0");
-    file.extend_from_slice(binary);
+    file.extend_from_slice(&binary);
     file
 }

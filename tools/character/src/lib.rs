@@ -9,7 +9,9 @@
     reason = "tables of measures and grids read best as such"
 )]
 
+mod animation;
 pub mod body;
+pub mod clips;
 pub mod clothes;
 pub mod glb;
 pub mod hair;
@@ -22,6 +24,7 @@ pub mod props;
 mod ramp;
 pub mod skeleton;
 mod vrm;
+pub mod vrma;
 
 use model::Model;
 use skeleton::Skeleton;
@@ -42,5 +45,11 @@ pub fn build() -> Model {
 /// Bytes of `hikage.vrm`.
 #[must_use]
 pub fn file() -> Vec<u8> {
-    glb::write(&build())
+    glb::write(&build(), &[])
+}
+
+/// Bytes of `hikage.vrm` with all of [`clips::NAMES`] as animations of her bones.
+#[must_use]
+pub fn file_with_clips() -> Vec<u8> {
+    glb::write(&build(), &clips::all())
 }

@@ -180,6 +180,14 @@ pub(crate) fn expression(text: &str) -> Result<(String, f32), String> {
     Ok((name.to_owned(), number(weight, 0.0, 1.0).map_err(|e| format!("weight: {e}"))?))
 }
 
+/// `X,Y,Z`: a point in metres, or a direction times a strength.
+pub(crate) fn xyz(text: &str) -> Result<[f32; 3], String> {
+    let number = |t: &str| t.trim().parse().ok().filter(|v: &f32| v.is_finite());
+    let numbers: Option<Vec<f32>> = text.split(',').map(number).collect();
+    let numbers = numbers.and_then(|list| list.try_into().ok());
+    numbers.ok_or_else(|| format!("expected three numbers as X,Y,Z, not {text:?}"))
+}
+
 /// Seconds of the shown moment.
 pub(crate) fn time(text: &str) -> Result<f32, String> {
     number(text, 0.0, 86400.0)

@@ -1,9 +1,11 @@
 //! The program `hikage`: draws, inspects and measures VRM and glTF characters.
 
 mod adapters;
+mod animate;
 mod animation;
 mod args;
 mod bench;
+mod clips;
 mod compare_real;
 mod compare_references;
 mod deadline;
@@ -13,6 +15,8 @@ mod inspect;
 mod look;
 mod looks;
 mod output;
+mod placed;
+mod pose;
 mod profile;
 mod reference;
 mod render;
@@ -51,6 +55,7 @@ const AFTER_HELP: &str = "\
 Examples:
   hikage render girl.vrm -o girl.png
   hikage inspect girl.vrm
+  hikage animate girl.vrm --clip walk -o walk.webp
   hikage render girl.vrm -o smile.png --view face --expression happy=0.8 --light 30,40
 
 Exit status: 0 done, 1 bad input, 2 wrong usage, 3 no usable graphics.
@@ -62,6 +67,8 @@ enum Command {
     Render(render::Args),
     /// Draw a character from all sides and with every expression, on one sheet.
     Sheet(sheet::Args),
+    /// Draw a character in motion: an animated WebP or GIF, frames, or a contact sheet.
+    Animate(animate::Args),
     /// Draw every look on the built-in character: contact sheets and a page that explains them.
     Gallery(gallery::Args),
     /// Write a look file with every number of the anime look, to start from. Needs no GPU.
@@ -78,6 +85,9 @@ enum Command {
     Inspect(inspect::Args),
     /// Measure the time of a frame, against the same meshes drawn unlit.
     Bench(bench::Args),
+    /// Replay a scenario of motion and write what becomes of it as numbers. Needs no GPU.
+    #[command(hide = true)]
+    Pose(pose::Args),
     /// List the graphics adapters.
     Adapters(adapters::Args),
     /// Compare with reference pictures of another renderer.
@@ -126,6 +136,7 @@ fn run(command: Command) -> Result<(), Failure> {
     match command {
         Command::Render(args) => render::run(&args),
         Command::Sheet(args) => sheet::run(&args),
+        Command::Animate(args) => animate::run(&args),
         Command::Gallery(args) => gallery::run(&args),
         Command::Look(args) => look::run(&args),
         Command::Looks(args) => looks::run(&args),
@@ -134,6 +145,7 @@ fn run(command: Command) -> Result<(), Failure> {
         Command::Texture(args) => texture::run(&args),
         Command::Inspect(args) => inspect::run(&args),
         Command::Bench(args) => bench::run(&args),
+        Command::Pose(args) => pose::run(&args),
         Command::Adapters(args) => adapters::run(&args),
         Command::CompareReferences(args) => compare_references::run(&args),
         Command::CompareReal(args) => compare_real::run(&args),

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use glam::Vec3;
+use glam::Mat4;
 use hikage::motion::{Pose, Stance};
 use hikage::picture::{encode_png, write_atomic};
 use hikage::scene::Scene;
@@ -11,13 +11,12 @@ use hikage::{Actor, Background, Channel, GpuMemory, Ground, Output, Renderer, St
 use serde::Serialize;
 
 use crate::args::{self, LookName, ViewName};
-use crate::failure::{Failure, warn};
+use crate::clips::{LookAt, Motion, MotionArgs, Moving, Sources};
+use crate::failure::Failure;
+use crate::placed::{Placed, placed};
 use crate::shot::Shot;
 use crate::spinner::Spinner;
 use crate::{deadline, output, setup};
-
-/// Warnings that are shown before the rest is only counted.
-const SHOWN_WARNINGS: usize = 5;
 
 /// Arguments of `hikage render`.
 #[derive(clap::Args)]
@@ -28,6 +27,7 @@ Examples:
   hikage render girl.vrm -o icon.png --size 256x256 --background none --expression happy,blink=0.3
   hikage render girl.vrm -o again.png --shot shot.json
   hikage render girl.vrm -o smooth.png --accumulate 16
+  hikage render girl.vrm -o step.png --view full --clip walk --time 0.4
   hikage render girl.vrm boy.vrm@0.8,0,-0.2@yaw=-30 -o both.png --view full --ground grid
 
 SHOT.json (every field may be missing; options given here win over it):
@@ -81,7 +81,7 @@ pub(crate) struct Args {
     /// Expressions and their weights, 0 to 1.
     #[arg(long, value_name = "NAME=W,...", value_delimiter = ',', value_parser = args::expression)]
     expression: Vec<(String, f32)>,
-    /// Pose of the humanoid [default: rest; relaxed for the built-in character].
+    /// Pose of the humanoid, which clips go over [default: rest; relaxed for the built-in character and with clips].
     #[arg(long, value_name = "rest|relaxed|bend|offer", value_parser = args::stance)]
     pose: Option<Stance>,
     #[arg(long, value_name = "plain|anime|natural|FILE.look.toml", value_parser = args::look, help = args::LOOK_HELP)]
@@ -89,7 +89,9 @@ pub(crate) struct Args {
     /// File with camera, light and background; see below.
     #[arg(long, value_name = "SHOT.json")]
     shot: Option<PathBuf>,
-    /// Moment of texture animations.
+    #[command(flatten)]
+    motion: MotionArgs,
+    /// Moment of clips and of texture animations. Hair and clothes swing as they do then, two seconds into the movement.
     #[arg(long, value_name = "SECONDS", default_value = "0", value_parser = args::time)]
     time: f32,
     /// What is shown of each pixel: the picture, its geometry (part-id: 16 bits in red (low) and green (high), 0 for
@@ -160,7 +162,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let start = Instant::now();
     let mut ms = Timings::default();
     for path in [Some(&args.output), args.report.as_ref()].into_iter().flatten() {
-        check_writable(path)?;
+        setup::check_writable(path)?;
     }
     let shot = args.shot.as_deref().map(Shot::read).transpose()?.unwrap_or_default();
 
@@ -175,13 +177,13 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let mut scenes = Vec::with_capacity(models.len());
     for model in models {
         let scene = timed(&mut ms.load, || setup::load(model.path.as_deref()))?;
-        show_warnings(&scene.warnings);
+        setup::show_warnings(&scene.warnings);
         scenes.push(scene);
     }
     for (model, scene) in models.iter().zip(&mut scenes) {
         setup::apply_look(args.look.as_ref(), model.path.as_deref(), scene)?;
     }
-    let poses = poses(args, models, &scenes)?;
+    let mut motions = motions(args, models, &scenes)?;
 
     spinner.step("opening the adapter");
     let gpu = timed(&mut ms.adapter, || setup::gpu(args.adapter.as_deref()))?;
@@ -190,13 +192,16 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let renderer = timed(&mut ms.pipelines, || Renderer::with_output(&gpu, output))?;
     spinner.step("uploading");
     let mut actors = Vec::with_capacity(models.len());
-    for ((model, scene), pose) in models.iter().zip(&mut scenes).zip(poses) {
+    for (scene, posed) in scenes.iter_mut().zip(&motions) {
         let character = timed(&mut ms.upload, || renderer.upload_and_empty_images(scene))?;
-        actors.push(Actor::new(&character).at(model.position, model.yaw_rad).posed(pose));
+        actors.push(posed.put(Actor::new(&character), args.time));
     }
     let mut stage = Stage::of(actors);
     stage.ground.clone_from(&args.ground);
     let view = seen(args, &shot, &mut stage)?;
+    if args.motion.look_at == Some(LookAt::Camera) {
+        look_at_camera(&mut motions, args.time, &mut stage, &view);
+    }
     spinner.step("drawing");
     let picture = timed(&mut ms.first_frame, || {
         // One picture is smoothed as the look says.
@@ -230,57 +235,58 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     Ok(())
 }
 
-/// A model and where it stands.
-#[derive(Clone, Debug, Default, PartialEq)]
-struct Placed {
-    /// The built-in character where there is none.
-    path: Option<PathBuf>,
-    position: [f32; 3],
-    yaw_rad: f32,
+/// How a model stands: still, or in a movement.
+enum Posed {
+    Still(Mat4, Box<Pose>),
+    Moved(Box<Motion>),
 }
 
-impl Placed {
-    fn name(&self) -> String {
-        self.path.as_deref().unwrap_or(Path::new(setup::BUILT_IN)).display().to_string()
-    }
-}
-
-/// A model with its place behind it.
-fn placed(text: &str) -> Result<Placed, String> {
-    let (mut rest, mut model) = (text, Placed::default());
-    // File names may hold an @ of their own.
-    while let Some((before, last)) = rest.rsplit_once('@') {
-        if let Some(turn) = last.strip_prefix("yaw=") {
-            model.yaw_rad = args::yaw(turn)?.to_radians();
-        } else if let [x, y, z] = last.split(',').collect::<Vec<_>>()[..] {
-            for (axis, number) in model.position.iter_mut().zip([x, y, z]) {
-                let metres = number.parse().ok().filter(|m: &f32| m.is_finite());
-                *axis = metres.ok_or_else(|| format!("expected metres as X,Y,Z, not {last:?}"))?;
+impl Posed {
+    /// The actor in its place and pose.
+    fn put(&self, mut actor: Actor, time_s: f32) -> Actor {
+        match self {
+            Self::Still(world, pose) => {
+                actor.world = *world;
+                actor.posed((**pose).clone())
             }
-        } else {
-            break;
+            Self::Moved(motion) => {
+                let Moving { world, pose, .. } = motion.from(time_s);
+                actor.world = world;
+                actor.posed(pose)
+            }
         }
-        rest = before;
     }
-    model.path = Some(PathBuf::from(rest));
-    Ok(model)
 }
 
 /// Poses of all models. Of several, each shows the expressions that it has.
-fn poses(args: &Args, models: &[Placed], scenes: &[Scene]) -> Result<Vec<Pose>, Failure> {
+fn motions(args: &Args, models: &[Placed], scenes: &[Scene]) -> Result<Vec<Posed>, Failure> {
     let has = |scene: &Scene, name: &str| scene.character.iter().flat_map(|c| &c.expressions).any(|e| e.name == name);
     let somebody_has = |name: &str| scenes.iter().any(|scene| has(scene, name));
-    let pose = |(model, scene): (&Placed, &Scene)| {
-        let at_ease = if model.path.is_none() {
-            Stance::Relaxed
-        } else {
-            Stance::Rest
-        };
+    let sources = Sources::load(&args.motion.clip)?;
+    let posed = |(model, scene): (&Placed, &Scene)| {
+        let is_at_ease = model.path.is_none() || !args.motion.clip.is_empty();
+        let stance = args.pose.unwrap_or(if is_at_ease { Stance::Relaxed } else { Stance::Rest });
         let expressions: Vec<(String, f32)> =
             args.expression.iter().filter(|(name, _)| has(scene, name) || !somebody_has(name)).cloned().collect();
-        setup::pose(scene, args.pose.unwrap_or(at_ease), &expressions)
+        if !args.motion.is_some() {
+            return Ok(Posed::Still(model.world(), Box::new(setup::pose(scene, stance, &expressions)?)));
+        }
+        let base = setup::pose(scene, stance, &[])?;
+        let mut motion = Motion::new(scene, &args.motion, &sources, base, model.world())?;
+        motion.express(&expressions)?;
+        Ok(Posed::Moved(Box::new(motion)))
     };
-    models.iter().zip(scenes).map(pose).collect()
+    models.iter().zip(scenes).map(posed).collect()
+}
+
+/// Poses all anew with their eyes on the camera, which was placed by how they stood without.
+fn look_at_camera(motions: &mut [Posed], time_s: f32, stage: &mut Stage, view: &View) {
+    for (posed, actor) in motions.iter_mut().zip(&mut stage.actors) {
+        if let Posed::Moved(motion) = posed {
+            motion.look_at(view.camera.eye);
+            Moving { world: actor.world, pose: actor.pose, .. } = motion.from(time_s);
+        }
+    }
 }
 
 /// What is drawn: the framing, then the shot, then the options of the command line.
@@ -298,8 +304,8 @@ fn seen(args: &Args, shot: &Shot, stage: &mut Stage) -> Result<View, Failure> {
     if args.view.is_some() || args.yaw.is_some() {
         view.camera = framed.camera;
     }
-    if let Some([yaw, pitch]) = args.light.map(|angles| angles.map(f32::to_radians)) {
-        lights.directional.to_light = Vec3::new(yaw.sin() * pitch.cos(), pitch.sin(), yaw.cos() * pitch.cos());
+    if let Some(degrees) = args.light {
+        lights.directional.to_light = setup::to_light(degrees);
     }
     if let Some(name) = &args.environment {
         lights.environment = setup::environment(name)?;
@@ -346,27 +352,6 @@ fn options_report<'a>(args: &'a Args, view: &View, stage: &Stage) -> OptionsRepo
     }
 }
 
-/// Says early what would otherwise come after a long rendering.
-fn check_writable(path: &Path) -> Result<(), Failure> {
-    let folder = path.parent().filter(|f| !f.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    if !folder.is_dir() {
-        return Err(Failure::input(format!("{}: the folder {} does not exist", path.display(), folder.display())));
-    }
-    if path.exists() && !path.is_file() {
-        return Err(Failure::input(format!("{}: is not a regular file", path.display())));
-    }
-    Ok(())
-}
-
-fn show_warnings(warnings: &[hikage::scene::Warning]) {
-    for warning in warnings.iter().take(SHOWN_WARNINGS) {
-        warn(&format!("{}: {}", warning.pointer, warning.message));
-    }
-    if let Some(more @ 1..) = warnings.len().checked_sub(SHOWN_WARNINGS) {
-        warn(&format!("{more} more; `hikage inspect` lists them"));
-    }
-}
-
 fn timed<T>(ms: &mut f64, work: impl FnOnce() -> T) -> T {
     let start = Instant::now();
     let result = work();
@@ -382,23 +367,5 @@ pub(crate) fn png_path(text: &str) -> Result<PathBuf, String> {
         Ok(path)
     } else {
         Err("expected a name that ends in .png".into())
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_model_may_name_its_place() {
-        let at = |path: &str, position, yaw_deg: f32| {
-            Ok(Placed { path: Some(path.into()), position, yaw_rad: yaw_deg.to_radians() })
-        };
-        assert_eq!(placed("a.vrm"), at("a.vrm", [0.0; 3], 0.0));
-        assert_eq!(placed("b.vrm@1,0,-0.5@yaw=-30"), at("b.vrm", [1.0, 0.0, -0.5], -30.0));
-        assert_eq!(placed("b.vrm@yaw=15@0,1,0"), at("b.vrm", [0.0, 1.0, 0.0], 15.0));
-        assert_eq!(placed("me@home.vrm"), at("me@home.vrm", [0.0; 3], 0.0));
-        assert!(placed("b.vrm@1,x,0").is_err_and(|e| e.contains("X,Y,Z")));
-        assert!(placed("b.vrm@yaw=left").is_err());
     }
 }

@@ -4,16 +4,20 @@ use std::fs::File;
 use std::io::Read as _;
 use std::path::Path;
 
+use glam::Vec3;
 use hikage::import::load_radiance;
 use hikage::motion::{Pose, Stance};
-use hikage::scene::{Environment, Scene};
+use hikage::scene::{Environment, Scene, Warning};
 use hikage::sdf::{Project, Sides};
 use hikage::{Gpu, Look, LookFile};
 use hikage_character::head::sdf;
 
 use crate::args::{EnvironmentName, LookName};
 use crate::deadline;
-use crate::failure::Failure;
+use crate::failure::{Failure, warn};
+
+/// Warnings that are shown before the rest is only counted.
+const SHOWN_WARNINGS: usize = 5;
 
 /// Bytes of the largest text file that is read: shots and shaders.
 const MAX_TEXT_BYTES: u64 = 1 << 20;
@@ -105,4 +109,32 @@ pub(crate) fn pose(scene: &Scene, stance: Stance, expressions: &[(String, f32)])
     pose.set_stance(scene, stance);
     pose.set_expressions(scene, expressions)?;
     Ok(pose)
+}
+
+/// Says early what would otherwise come after a long rendering.
+pub(crate) fn check_writable(path: &Path) -> Result<(), Failure> {
+    let folder = path.parent().filter(|f| !f.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    if !folder.is_dir() {
+        return Err(Failure::input(format!("{}: the folder {} does not exist", path.display(), folder.display())));
+    }
+    if path.exists() && !path.is_file() {
+        return Err(Failure::input(format!("{}: is not a regular file", path.display())));
+    }
+    Ok(())
+}
+
+/// Prints the first warnings of a model.
+pub(crate) fn show_warnings(warnings: &[Warning]) {
+    for warning in warnings.iter().take(SHOWN_WARNINGS) {
+        warn(&format!("{}: {}", warning.pointer, warning.message));
+    }
+    if let Some(more @ 1..) = warnings.len().checked_sub(SHOWN_WARNINGS) {
+        warn(&format!("{more} more; `hikage inspect` lists them"));
+    }
+}
+
+/// Direction to a light of these angles, degrees: yaw to the character's left, pitch from above.
+pub(crate) fn to_light(degrees: [f32; 2]) -> Vec3 {
+    let [yaw, pitch] = degrees.map(f32::to_radians);
+    Vec3::new(yaw.sin() * pitch.cos(), pitch.sin(), yaw.cos() * pitch.cos())
 }

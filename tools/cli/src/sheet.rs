@@ -190,9 +190,8 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
                 }
                 stage.actors[0].pose = pose;
                 stage.lights.clone_from(&lights);
-                if let Some([yaw, pitch]) = shown.light_deg.map(|angles| angles.map(f32::to_radians)) {
-                    let to_light = Vec3::new(yaw.sin() * pitch.cos(), pitch.sin(), yaw.cos() * pitch.cos());
-                    stage.lights.directional.to_light = to_light;
+                if let Some(degrees) = shown.light_deg {
+                    stage.lights.directional.to_light = setup::to_light(degrees);
                 }
                 let picture = renderer.render(&mut stage, &view)?;
                 let left = GAP + column as u32 * (panel + GAP);

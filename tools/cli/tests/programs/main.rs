@@ -5,4 +5,5 @@ mod gltf;
 
 mod cli;
 mod determinism;
+mod motion;
 mod sdf;
