@@ -1,4 +1,4 @@
-//! The windowed example runs on a virtual X server and shows a character.
+//! The windowed examples run on a virtual X server and show characters.
 
 use std::{
     fs,
@@ -38,56 +38,100 @@ impl Drop for Killed {
     }
 }
 
+/// A virtual screen with an example on it.
+struct Screen {
+    app: Killed,
+    _server: Killed,
+    file: PathBuf,
+}
+
+impl Screen {
+    /// `None` where there is no Xvfb.
+    fn with(name: &str, arguments: &[&Path]) -> Option<Self> {
+        let installed = Command::new("Xvfb").arg("-help").stdout(Stdio::null()).stderr(Stdio::null()).status().is_ok();
+        if !cfg!(target_os = "linux") || !installed {
+            eprintln!("NOT RUN: no Xvfb on this machine; `apt-get install xvfb libxkbcommon-x11-0` brings it");
+            return None;
+        }
+        let folder = folder(name);
+        let file = folder.join("Xvfb_screen0");
+        let _ = fs::remove_file(&file);
+        let number = 90 + (std::process::id() * 2 + u32::from(name == "game")) % 200;
+        let display = format!(":{number}");
+        let server = Killed(
+            Command::new("Xvfb")
+                .args([&display, "-screen", "0", "800x800x24", "-nolisten", "tcp", "-fbdir"])
+                .arg(&folder)
+                .stdout(Stdio::null())
+                .stderr(Stdio::null())
+                .spawn()
+                .expect("Xvfb starts"),
+        );
+        wait_for("the X server", || fs::exists(format!("/tmp/.X11-unix/X{number}")).unwrap_or(false));
+        let app = Killed(
+            Command::new(example(name))
+                .args(arguments)
+                .env("DISPLAY", &display)
+                .env_remove("WAYLAND_DISPLAY")
+                .spawn()
+                .expect("the example starts"),
+        );
+        Some(Self { app, _server: server, file })
+    }
+
+    /// The first picture that is as wanted.
+    fn picture(&mut self, what: &str, is_wanted: impl Fn(&hikage::scene::Image) -> bool) -> hikage::scene::Image {
+        let mut seen = None;
+        wait_for(what, || {
+            if let Some(status) = self.app.0.try_wait().expect("the example's state") {
+                panic!("the example ended: {status}");
+            }
+            seen = read_screen(&self.file).filter(|s| is_wanted(s));
+            seen.is_some()
+        });
+        let shown = seen.expect("a picture");
+        let file = self.file.with_file_name(format!("{}.png", what.replace(' ', "-")));
+        hikage::picture::write_png(&file, &shown).expect("a picture file");
+        println!("screenshot: {}", file.display());
+        shown
+    }
+}
+
+fn folder(name: &str) -> PathBuf {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("window").join(name);
+    fs::create_dir_all(&folder).expect("a folder for the screen");
+    folder
+}
+
+fn has(color: [u8; 3]) -> impl Fn(&hikage::scene::Image) -> bool {
+    move |screen| screen.pixels.chunks_exact(4).any(|p| p[..3] == color)
+}
+
 #[test]
 fn the_window_shows_the_character() {
-    let installed = Command::new("Xvfb").arg("-help").stdout(Stdio::null()).stderr(Stdio::null()).status().is_ok();
-    if !cfg!(target_os = "linux") || !installed {
-        eprintln!("NOT RUN: no Xvfb on this machine; `apt-get install xvfb libxkbcommon-x11-0` brings it");
-        return;
-    }
-    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("window");
-    fs::create_dir_all(&folder).expect("a folder for the screen");
-    let model = folder.join("square.glb");
+    let model = folder("window").join("square.glb");
     fs::write(&model, red_square()).expect("a model");
-    let screen = folder.join("Xvfb_screen0");
-    let _ = fs::remove_file(&screen);
-
-    let number = 90 + std::process::id() % 100;
-    let display = format!(":{number}");
-    let _server = Killed(
-        Command::new("Xvfb")
-            .args([&display, "-screen", "0", "800x800x24", "-nolisten", "tcp", "-fbdir"])
-            .arg(&folder)
-            .stdout(Stdio::null())
-            .stderr(Stdio::null())
-            .spawn()
-            .expect("Xvfb starts"),
-    );
-    wait_for("the X server", || fs::exists(format!("/tmp/.X11-unix/X{number}")).unwrap_or(false));
-    let mut app = Killed(
-        Command::new(example("window"))
-            .arg(&model)
-            .env("DISPLAY", &display)
-            .env_remove("WAYLAND_DISPLAY")
-            .spawn()
-            .expect("the example starts"),
-    );
-    let mut seen = None;
-    wait_for("a picture in the window", || {
-        if let Some(status) = app.0.try_wait().expect("the example's state") {
-            panic!("the example ended: {status}");
-        }
-        seen = read_screen(&screen).filter(|s| s.pixels.chunks_exact(4).any(|p| p[..3] == [0x9f, 0xb4, 0xc7]));
-        seen.is_some()
-    });
-    let shown = seen.expect("a picture");
-    let picture = folder.join("screen.png");
-    hikage::picture::write_png(&picture, &shown).expect("a picture file");
-    println!("screenshot: {}", picture.display());
+    let Some(mut screen) = Screen::with("window", &[&model]) else { return };
+    let shown = screen.picture("a picture in the window", has([0x9f, 0xb4, 0xc7]));
     let center = &shown.pixels[(400 * 800 + 400) * 4..][..3];
     let corner = &shown.pixels[(20 * 800 + 20) * 4..][..3];
     assert_eq!(corner, [0x9f, 0xb4, 0xc7], "the background stands in the corner");
     assert!(center[0] > 200 && center[1] < 140, "the red square stands in the middle: {center:?}");
+}
+
+#[test]
+fn the_playground_is_played() {
+    let girl = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/oracles/motion/models/everything.vrm");
+    let Some(mut screen) = Screen::with("game", &[&girl, &girl, Path::new("--auto")]) else { return };
+    let first = screen.picture("the playground", has([0xb9, 0xd3, 0xe6]));
+    // The player walks, and the camera with it: boxes and ground go by.
+    let changed = |screen: &hikage::scene::Image| {
+        let pairs = screen.pixels.chunks_exact(4).zip(first.pixels.chunks_exact(4));
+        pairs.filter(|(a, b)| a != b).count()
+    };
+    let later = screen.picture("the playground later", |screen| changed(screen) > 20_000);
+    let is_box = |p: &[u8]| p[0] > 180 && p[2] < 150;
+    assert!(later.pixels.chunks_exact(4).filter(|p| is_box(p)).count() > 500, "boxes stand about");
 }
 
 fn wait_for(what: &str, mut ready: impl FnMut() -> bool) {

@@ -6,6 +6,7 @@ mod costs;
 
 pub use costs::{Cost, costs};
 
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use glam::Vec3;
@@ -13,6 +14,7 @@ use serde::Serialize;
 
 use crate::{
     Actor, AdapterInfo, Character, Error, Gpu, GpuMemory, Output, Renderer, Result, Stage, View,
+    motion::{Blink, Clip, Play, RootMotion},
     render::{Clock, Shown, Target, Timed, color_target, pass::floor::FloorPass},
     scene::Scene,
 };
@@ -28,11 +30,13 @@ pub struct BenchOptions {
     pub samples: u32,
     /// Frames that count; as many floor frames are timed between them. Range 1... Default: 20.
     pub frames: usize,
+    /// What they play, each from a moment of its own. Default: nothing but springs and blinking.
+    pub clip: Option<Arc<Clip>>,
 }
 
 impl Default for BenchOptions {
     fn default() -> Self {
-        Self { view: View::default(), actors: 1, samples: 4, frames: 20 }
+        Self { view: View::default(), actors: 1, samples: 4, frames: 20, clip: None }
     }
 }
 
@@ -69,13 +73,15 @@ pub struct BenchReport {
     pub actors: usize,
     /// Frames that count.
     pub frames: usize,
-    /// A whole frame: pose, deform, passes, until the adapter is done.
+    /// A whole frame: move, pose, deform, passes, until the adapter is done.
     pub frame_ms: Spread,
     /// The same for the floor.
     pub floor_ms: Spread,
     /// Median frame over median floor.
     pub floor_ratio: f64,
-    /// The processor's share: poses, lists and commands until they are submitted, milliseconds.
+    /// What moves them: clips, springs ([`Stage::update`]), milliseconds.
+    pub update_ms: Spread,
+    /// The rest of the processor's share: poses to matrices, lists and commands until they are submitted, milliseconds.
     pub encode_ms: Spread,
     /// Time of each pass where the adapter has timestamps; empty elsewhere.
     pub passes: Vec<PassTime>,
@@ -92,6 +98,9 @@ pub struct BenchReport {
 }
 
 const TIMEOUT: Duration = Duration::from_secs(120);
+/// Time that goes by in a frame, seconds.
+const FRAME_S: f32 = 1.0 / 60.0;
+
 /// A scene that is ready to be timed: frames and floor frames with the same triangles, targets and poses.
 pub struct Bench {
     gpu: Gpu,
@@ -102,8 +111,8 @@ pub struct Bench {
     target: wgpu::TextureView,
     floor: FloorPass,
     clock: Clock,
-    frame: u32,
     /// Of the last frame.
+    update_ms: f64,
     encode_ms: f64,
 }
 
@@ -129,14 +138,24 @@ impl Bench {
             let (column, row) = (i % columns, i / columns);
             Vec3::new(column as f32 - ((columns - 1) / 2) as f32, 0.0, -(row as f32))
         };
-        let stage = Stage::of((0..options.actors).map(|i| Actor::new(&character).at(place(i), 0.0)));
+        let actor = |i: usize| {
+            let mut actor = Actor::new(&character).at(place(i), 0.0);
+            actor.animator.blink = Some(Blink { seed: i as u64, ..Blink::default() });
+            if let Some(clip) = &options.clip {
+                let time_s = i as f64 * 0.37;
+                let play = Play { time_s, root_motion: RootMotion::InPlace, ..Play::new(clip) };
+                actor.animator.player.base().plays.push(play);
+            }
+            actor
+        };
+        let stage = Stage::of((0..options.actors).map(actor));
         Ok(Self {
             gpu: gpu.clone(),
             floor: renderer.floor(&character)?,
             target: color_target(gpu, options.view.size, output),
             clock: Clock::new(gpu),
             view: options.view.clone(),
-            frame: 0,
+            update_ms: 0.0,
             encode_ms: 0.0,
             renderer,
             character,
@@ -161,15 +180,10 @@ impl Bench {
     }
 
     fn draw(&mut self, is_frame: bool) -> Result<()> {
-        let Self { gpu, renderer, stage, view, target, floor, clock, frame, encode_ms, .. } = self;
-        *frame += 1;
-        // Every frame another pose; nobody could tell them apart.
-        let moved = (*frame % 2) as f32 * 1e-6;
-        for (i, actor) in stage.actors.iter_mut().enumerate() {
-            for (local, node) in actor.pose.locals.iter_mut().zip(&actor.character.scene().nodes) {
-                local.translation.x = node.transform.translation.x + moved + i as f32 * 1e-7;
-            }
-        }
+        let Self { gpu, renderer, stage, view, target, floor, clock, update_ms, encode_ms, .. } = self;
+        let start = Instant::now();
+        stage.update(FRAME_S);
+        *update_ms = milliseconds(start);
         let start = Instant::now();
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("bench") });
         let shown = if is_frame { Shown::Picture } else { Shown::Floor(floor) };
@@ -197,12 +211,13 @@ pub fn run(gpu: &Gpu, scene: &Scene, options: &BenchOptions) -> Result<BenchRepo
     // Warms the floor up as the frame was.
     bench.floor()?;
 
-    let (mut frames, mut floors, mut encodes) = (Vec::new(), Vec::new(), Vec::new());
+    let [mut frames, mut floors, mut updates, mut encodes] = [const { Vec::new() }; 4];
     let mut passes = vec![Vec::new(); Timed::ALL.len()];
     for _ in 0..options.frames {
         let start = Instant::now();
         bench.frame()?;
         frames.push(milliseconds(start));
+        updates.push(bench.update_ms);
         encodes.push(bench.encode_ms);
         for (list, ms) in passes.iter_mut().zip(bench.clock.read(gpu)?) {
             list.extend(ms);
@@ -221,6 +236,7 @@ pub fn run(gpu: &Gpu, scene: &Scene, options: &BenchOptions) -> Result<BenchRepo
         frames: options.frames,
         frame_ms,
         floor_ms,
+        update_ms: spread(updates),
         encode_ms: spread(encodes),
         floor_ratio: frame_ms.median / floor_ms.median.max(1e-9),
         passes: Timed::ALL

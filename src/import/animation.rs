@@ -178,6 +178,9 @@ fn read_channel(
     Ok(values.map(|values| AnimationChannel { node, times, interpolation, values }))
 }
 
+/// Largest time, value and tangent of a key: products of three of them are numbers still.
+const LARGEST: f32 = 1e12;
+
 /// Reads what a channel refers to, and says where it is not finite.
 struct Finite<'a, 'b> {
     target: &'a Json<'b>,
@@ -185,12 +188,18 @@ struct Finite<'a, 'b> {
 }
 
 impl Finite<'_, '_> {
-    /// All elements; `None` where one of them is NaN or infinite.
+    /// All elements; `None` where one of them is NaN, infinite, or so large that what lies between keys would be.
     fn rows<const N: usize>(&mut self, what: &str, accessor: &Accessor) -> Result<Option<Vec<[f32; N]>>> {
-        let (rows, bad) = accessor.all_floats()?;
-        if bad > 0 {
+        let (rows, bad) = accessor.all_floats::<N>()?;
+        let large = rows.as_flattened().iter().filter(|value| value.abs() > LARGEST).count();
+        if bad > 0 || large > 0 {
             let place = &accessor.pointer;
-            let message = format!("{what} {place} has {bad} NaN or infinite values: channel skipped");
+            let found = if bad > 0 {
+                format!("{bad} NaN or infinite values")
+            } else {
+                format!("{large} values beyond {LARGEST:e}")
+            };
+            let message = format!("{what} {place} has {found}: channel skipped");
             self.warnings.add(self.target.pointer(), message);
             return Ok(None);
         }

@@ -88,9 +88,14 @@ impl Animator {
 
     /// Turns head and eyes to what the gaze is on.
     pub fn look(&mut self, skeleton: &Skeleton, world: &Mat4, pose: &mut Pose, dt: f32) {
+        let of_clips = self.player.gaze;
+        self.looks = None;
+        if self.gaze.is_idle() && of_clips.is_none() {
+            return;
+        }
         let places = &mut self.scratch.places;
         place_all(&skeleton.parents, &pose.locals, &Place::ORIGIN, places);
-        let (root, of_clips) = (Place::of(world), self.player.gaze);
+        let root = Place::of(world);
         let time = [self.time_s, f64::from(dt)];
         self.looks = self.gaze.aim(skeleton, &mut pose.locals, places, &root, of_clips, time);
         if let Some(angles) = self.looks {
@@ -116,7 +121,7 @@ impl Animator {
         if let Some(angles) = self.looks {
             drive_looks(skeleton, angles, &mut self.shown);
         }
-        resolve(&skeleton.expressions, &mut self.shown);
+        resolve(&skeleton.expressions, &skeleton.kinds, &mut self.shown);
         pose.show_expressions(skeleton, &self.shown);
     }
 

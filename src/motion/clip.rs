@@ -173,8 +173,20 @@ impl Clip {
         self.name.clone_from(&animation.name);
         let ends = animation.channels.iter().filter_map(|c| c.times.last().copied());
         self.length_s = ends.fold(0.0, f32::max);
+        self.keep_finite();
         self.root = self.way_of_hips(target);
         self
+    }
+
+    /// Leaves out what rest poses of no size have made infinite.
+    fn keep_finite(&mut self) {
+        let before = self.rotations.len() + self.translations.len();
+        self.rotations.retain(|c| c.tracks.iter().all(|t| t.values.iter().all(|q| q.is_finite())));
+        self.translations.retain(|c| c.track.values.iter().all(|v| v.is_finite()));
+        let left_out = before - self.rotations.len() - self.translations.len();
+        if left_out > 0 {
+            self.warnings.push(format!("{left_out} movements have no size in the rest pose of the file: left out"));
+        }
     }
 
     fn way_of_hips(&self, target: &Scene) -> Option<RootChannel> {

@@ -6,46 +6,42 @@ use crate::{
     scene::{Expression, ExpressionOverride, Scene},
 };
 
-/// A kind of expression, and how others may override it.
-type Kind = (&'static [&'static str], fn(&Expression) -> ExpressionOverride);
-
-const KINDS: [Kind; 3] = [
+/// Kinds of expressions that others may override: names, and how.
+const KINDS: [(&[&str], fn(&Expression) -> ExpressionOverride); 3] = [
     (&["blink", "blinkLeft", "blinkRight"], |e| e.override_blink),
     (&["lookUp", "lookDown", "lookLeft", "lookRight"], |e| e.override_look_at),
     (&["aa", "ih", "ou", "ee", "oh"], |e| e.override_mouth),
 ];
 
+/// The kind of each expression, in [`KINDS`]; `None` for those that nothing overrides.
+pub(crate) fn kinds_of(expressions: &[Expression]) -> Vec<Option<usize>> {
+    let kind = |e: &Expression| KINDS.iter().position(|(names, _)| names.contains(&e.name.as_str()));
+    expressions.iter().map(kind).collect()
+}
+
 /// Turns what is asked of each expression into what shows of it: clamped to 0..1, binary ones rounded at 0.5, then faded or
 /// blocked by others. What overrides its own kind does not.
-pub(crate) fn resolve(expressions: &[Expression], weights: &mut [f32]) {
-    for (weight, expression) in weights.iter_mut().zip(expressions) {
+pub(crate) fn resolve(expressions: &[Expression], kinds: &[Option<usize>], weights: &mut [f32]) {
+    let mut amounts = [0f32; KINDS.len()];
+    for ((weight, expression), own) in weights.iter_mut().zip(expressions).zip(kinds) {
         // NaN is nothing.
         *weight = weight.max(0.0).min(1.0);
         if expression.is_binary {
             *weight = f32::from(u8::from(*weight > 0.5));
         }
-    }
-    let amounts = KINDS.map(|(kind, of)| {
-        let others = expressions.iter().zip(&*weights).filter(|(e, _)| !kind.contains(&e.name.as_str()));
-        let sum: f32 = others
-            .map(|(e, &w)| match of(e) {
+        for (kind, (_, of)) in KINDS.iter().enumerate().filter(|(kind, _)| *own != Some(*kind)) {
+            amounts[kind] += match of(expression) {
                 ExpressionOverride::None => 0.0,
-                ExpressionOverride::Block => f32::from(u8::from(w > 0.0)),
-                ExpressionOverride::Blend => w,
-            })
-            .sum();
-        sum.min(1.0)
-    });
-    for (weight, expression) in weights.iter_mut().zip(expressions) {
-        for ((kind, _), amount) in KINDS.iter().zip(amounts) {
-            if amount > 0.0 && kind.contains(&expression.name.as_str()) {
-                // A binary expression is whole or off, even where another one fades it.
-                *weight = if expression.is_binary {
-                    0.0
-                } else {
-                    *weight * (1.0 - amount)
-                };
-            }
+                ExpressionOverride::Block => f32::from(u8::from(*weight > 0.0)),
+                ExpressionOverride::Blend => *weight,
+            };
+        }
+    }
+    for ((weight, expression), kind) in weights.iter_mut().zip(expressions).zip(kinds) {
+        let amount = kind.map_or(0.0, |kind| amounts[kind].min(1.0));
+        if amount > 0.0 {
+            // A binary expression is whole or off, even where another one fades it.
+            *weight *= if expression.is_binary { 0.0 } else { 1.0 - amount };
         }
     }
 }
@@ -68,7 +64,7 @@ impl Pose {
             };
             input[index] = *weight;
         }
-        resolve(expressions, &mut input);
+        resolve(expressions, &kinds_of(expressions), &mut input);
         self.morph_weights = scene.nodes.iter().map(|n| n.morph_weights.clone()).collect();
         self.shifts.clear();
         self.pupil_scale = 1.0;

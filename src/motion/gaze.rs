@@ -83,6 +83,11 @@ impl Gaze {
         Self { head, ..self }
     }
 
+    /// Whether it does nothing of its own.
+    pub(crate) fn is_idle(&self) -> bool {
+        self.target.is_none() && self.saccades.is_none() && self.head <= 0.0 && self.turn == [0.0; 2]
+    }
+
     /// Turns neck and head towards the target, and says where the eyes go. `places` are those of `locals` in the character's own
     /// space, `root` its place in the world, `of_clips` what clips say.
     pub(crate) fn aim(

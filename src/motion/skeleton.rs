@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use glam::{Mat4, Quat, Vec3};
 
 use super::constraint::ConstraintStep;
+use super::expression::kinds_of;
 use super::places::{Place, place_all};
 use super::pose::Pose;
 use super::spring::SpringRig;
@@ -25,6 +26,7 @@ pub struct Skeleton {
     pub(crate) morphed: Vec<u32>,
     pub(crate) bones: BTreeMap<HumanBone, usize>,
     pub(crate) expressions: Vec<Expression>,
+    pub(crate) kinds: Vec<Option<usize>>,
     /// What the diameter of pupils is multiplied by at weight 1 of each.
     pub(crate) pupils: Vec<f32>,
     /// Morph targets that expressions drive: node, target.
@@ -89,6 +91,7 @@ impl Skeleton {
             rest_weights: nodes.iter().map(|n| n.morph_weights.clone()).collect(),
             pupils: pupils.collect(),
             bound,
+            kinds: kinds_of(&expressions),
             driven: DrivenExpressions::of(&expressions),
             look_at: character.look_at.clone(),
             head: HeadRig::of(&bones, &parents),

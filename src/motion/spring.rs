@@ -242,7 +242,13 @@ impl Springs {
         self.pending += ticks;
         let due = self.pending / TICKS_A_STEP;
         self.pending -= due * TICKS_A_STEP;
-        for step in (due - MOST_STEPS).max(0) + 1..=due {
+        let dropped = (due - MOST_STEPS).max(0);
+        if dropped > 0 {
+            // What there is no time for carries hair along instead of leaving it behind.
+            let share = (dropped * TICKS_A_STEP - from) as f32 / ticks as f32;
+            self.origin = mix(self.last_root.position, root.position, share);
+        }
+        for step in dropped + 1..=due {
             // Where the step lies between the last frame and this one.
             let share = (step * TICKS_A_STEP - from) as f32 / ticks as f32;
             self.place(rig, skeleton, locals, root, share);

@@ -6,6 +6,7 @@ use hikage::View;
 use hikage::bench::{self, BenchOptions, run as measure};
 
 use crate::args::{self, LookName, ViewName};
+use crate::clips;
 use crate::failure::Failure;
 use crate::output::{Table, bytes, print, print_json};
 use crate::setup;
@@ -25,7 +26,7 @@ pub(crate) struct Args {
     /// Size of the picture, pixels.
     #[arg(long, value_name = "WxH", default_value = "1024x1024", value_parser = args::size)]
     size: [u32; 2],
-    /// Actors of the character, each in a pose of its own.
+    /// Actors of the character: they walk, each from a moment of its own, blink and swing.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=4096))]
     actors: u32,
     /// Measured frames.
@@ -70,6 +71,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         actors: args.actors as usize,
         samples: args.samples,
         frames: args.frames as usize,
+        clip: clips::built_in_for("walk", &scene)?,
     };
     if let Some(plain) = &plain {
         let costs = bench::costs(&gpu, &scene, plain, &options)?;
@@ -83,7 +85,13 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     }
 
     let mut times = Table::new(&["ms a frame", "median", "min", "p95"]);
-    for (name, ms) in [("frame", &report.frame_ms), ("floor", &report.floor_ms), ("encode", &report.encode_ms)] {
+    let rows = [
+        ("frame", &report.frame_ms),
+        ("floor", &report.floor_ms),
+        ("update", &report.update_ms),
+        ("encode", &report.encode_ms),
+    ];
+    for (name, ms) in rows {
         times.row([name.into(), format!("{:.3}", ms.median), format!("{:.3}", ms.min), format!("{:.3}", ms.p95)]);
     }
     let mut passes = Table::new(&["pass", "ms"]);
@@ -91,7 +99,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         passes.row([pass.name.clone(), format!("{:.3}", pass.ms.median)]);
     }
     print(&format!(
-        "{}: {} x {}, {} samples, {} actors, {} frames\n{}  frame / floor {:.2}\n{}  {} draws, {} triangles, {} on the GPU\n",
+        "{}: {} x {}, {} samples, {} actors, {} frames\n{}  frame / floor {:.2}, an actor {:.3} ms of the processor, {:.3} ms a frame\n{}  {} draws, {} triangles, {} on the GPU\n",
         report.adapter.name,
         args.size[0],
         args.size[1],
@@ -100,6 +108,8 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         args.frames,
         times.text(),
         report.floor_ratio,
+        (report.update_ms.median + report.encode_ms.median) / f64::from(args.actors),
+        report.frame_ms.median / f64::from(args.actors),
         passes.text(),
         report.draws,
         report.triangles,

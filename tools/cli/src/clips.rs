@@ -23,6 +23,9 @@ const WALKS: f32 = 0.05;
 /// Angle (radians) and share of the distance to the parent by which the end of a clip may miss its beginning in a loop.
 const CLOSE: [f32; 2] = [0.1, 0.05];
 
+/// Bones that a warning names before it counts the rest.
+const SHOWN_NAMES: usize = 6;
+
 /// Options of movement.
 #[derive(clap::Args)]
 pub(crate) struct MotionArgs {
@@ -143,11 +146,31 @@ impl<'a> Sources<'a> {
             let clip = Clip::named(source.as_ref().unwrap_or(target), &name.animation, target)
                 .map_err(|e| Failure::input(format!("--clip {}: {e}", name.shown())))?;
             for warning in &clip.warnings {
-                warn(&format!("--clip {}: {warning}", name.shown()));
+                warn(&format!("--clip {}: {}", name.shown(), shortened(warning)));
             }
             Ok((Arc::new(clip), name.weight))
         };
         self.0.iter().map(fit).collect()
+    }
+}
+
+/// A built-in clip for a model; `None` where it has no humanoid bones.
+pub(crate) fn built_in_for(name: &str, target: &Scene) -> Result<Option<Arc<Clip>>, Failure> {
+    let name = ClipName::built_in(name);
+    let clip = name.load()?.and_then(|source| Clip::of(&source, 0, target).ok());
+    Ok(clip.map(Arc::new))
+}
+
+/// A list of names, the first ones of many.
+fn shortened(list: &str) -> String {
+    let mut names: Vec<&str> = list.split(", ").collect();
+    let more = names.len().saturating_sub(SHOWN_NAMES);
+    names.truncate(SHOWN_NAMES);
+    let names = names.join(", ");
+    if more > 0 {
+        format!("{names} and {more} more")
+    } else {
+        names
     }
 }
 
@@ -334,6 +357,37 @@ mod tests {
         assert_eq!(look_at("camera"), Ok(LookAt::Camera));
         assert_eq!(look_at("-1, 2,0.5"), Ok(LookAt::Point(Vec3::new(-1.0, 2.0, 0.5))));
         assert!(look_at("left").is_err_and(|e| e.contains("camera")));
+    }
+
+    #[test]
+    fn a_loop_ends_where_it_began_with_its_hair_and_its_lids() {
+        let scene = crate::setup::load(None).unwrap();
+        for name in ["walk", "idle"] {
+            let args = MotionArgs { clip: vec![ClipName::built_in(name)], travel: true, look_at: None, wind: None };
+            let sources = Sources::load(&args.clip).unwrap();
+            let mut motion = Motion::new(&scene, &args, &sources, Pose::rest(&scene), Mat4::IDENTITY).unwrap();
+            let length_s = motion.length_s.unwrap();
+            motion.blink(1, length_s);
+            let mut moving = motion.from(0.0);
+            let first = moving.pose.clone();
+            assert!(moving.world.abs_diff_eq(Mat4::IDENTITY, 1e-3), "{name}: {}", moving.world);
+            for _ in 0..20 {
+                moving.advance(length_s / 20.0);
+            }
+            for (node, (a, b)) in first.locals.iter().zip(&moving.pose.locals).enumerate() {
+                let angle = a.rotation.angle_between(b.rotation).to_degrees();
+                assert!(angle < 3.0, "{name}: {}, {angle}", scene.nodes[node].name);
+            }
+            let weights = first.morph_weights.iter().flatten().zip(moving.pose.morph_weights.iter().flatten());
+            assert!(weights.clone().all(|(a, b)| (a - b).abs() < 0.02), "{name}");
+            assert_eq!(name == "walk", moving.world.w_axis.z > 0.3);
+        }
+    }
+
+    #[test]
+    fn long_lists_are_counted() {
+        assert_eq!(shortened("no bones: a, b"), "no bones: a, b");
+        assert_eq!(shortened("lacks: a, b, c, d, e, f, g, h"), "lacks: a, b, c, d, e, f and 2 more");
     }
 
     #[test]

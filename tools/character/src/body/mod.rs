@@ -99,6 +99,8 @@ fn colliders(model: &mut Model) {
         });
     };
     capsule("body", "upperChest", Vec3::new(-0.05, 1.17, -0.01), Vec3::new(0.05, 1.17, -0.01), 0.095);
+    // The bust, on which the pendant lies.
+    capsule("body", "upperChest", Vec3::new(-0.045, 1.12, 0.012), Vec3::new(0.045, 1.12, 0.012), 0.094);
     capsule("body", "spine", Vec3::new(0.0, 0.96, 0.005), Vec3::new(0.0, 1.07, 0.005), 0.085);
     capsule("body", "hips", Vec3::new(-0.05, 0.84, -0.012), Vec3::new(0.05, 0.84, -0.012), 0.095);
     for (side, sign) in [("left", 1.0), ("right", -1.0)] {

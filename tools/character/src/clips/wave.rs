@@ -58,8 +58,8 @@ fn posture(time: f32) -> Posture {
     posture.hips.y -= 0.003 * dip + 0.001 * lean;
     posture.hips.x += 0.01 * lean;
     posture.pelvis *= turn(-1.5 * lean, 0.0, -0.8 * lean);
-    posture.chest *= turn(2.5 * lean, -1.0 * lean + 1.0 * dip, 0.8 * dip - 3.0 * lean);
-    posture.head *= turn(-3.0 * tilt, 1.0 * tilt + 2.0 * dip, 8.0 * tilt + 0.6 * strength * swing(turns, 0.35));
+    posture.chest *= turn(2.5 * lean, dip - lean, 0.8 * dip - 3.0 * lean);
+    posture.head *= turn(-3.0 * tilt, tilt + 2.0 * dip, 8.0 * tilt + 0.6 * strength * swing(turns, 0.35));
     posture.arms[0].swing -= 3.0 * lean;
     posture.arms[0].elbow += 6.0 * lean;
     posture

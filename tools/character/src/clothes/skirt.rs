@@ -60,9 +60,10 @@ fn chains(model: &mut Model) -> Vec<[usize; 2]> {
             model.springs.push(Spring {
                 name: (*name).to_owned(),
                 joints: joints.clone(),
-                stiffness: 1.4,
-                drag: 0.45,
-                gravity: 0.08,
+                // Stiff, so that it keeps its bell at the speed of a run.
+                stiffness: 3.6,
+                drag: 0.28,
+                gravity: 0.25,
                 radius: 0.02,
                 colliders: vec!["legs"],
             });

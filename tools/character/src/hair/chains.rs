@@ -11,16 +11,24 @@ pub(super) struct Chain {
     joints: Vec<(usize, Vec3)>,
 }
 
+/// How a chain swings: stiffness, drag and gravity.
+///
+/// Drag holds a chain back in the world: at speed v (m/s) it trails by about atan(v * drag / (stiffness + gravity)), more with
+/// each bone up to atan(v * drag / gravity). These let the hair lean back in a walk and stream in a run.
+type Swing = [f32; 3];
+const FRONT: Swing = [3.0, 0.3, 0.05];
+const SIDE: Swing = [1.7, 0.28, 0.25];
+const BACK: Swing = [1.6, 0.25, 0.45];
+
 /// Places of the chains' bones. Those of the left side are mirrored.
-const CHAINS: &[(&str, bool, &[[f32; 3]], f32, f32)] = &[
-    ("HairFront_Middle", false, &[[0.002, 1.5, 0.085], [0.002, 1.462, 0.102], [0.002, 1.425, 0.106]], 1.6, 0.5),
-    ("HairFront_Left", true, &[[0.045, 1.5, 0.07], [0.052, 1.458, 0.085], [0.056, 1.415, 0.086]], 1.6, 0.5),
+const CHAINS: &[(&str, bool, &[[f32; 3]], Swing)] = &[
+    ("HairFront_Middle", false, &[[0.002, 1.5, 0.085], [0.002, 1.462, 0.102], [0.002, 1.425, 0.106]], FRONT),
+    ("HairFront_Left", true, &[[0.045, 1.5, 0.07], [0.052, 1.458, 0.085], [0.056, 1.415, 0.086]], FRONT),
     (
         "HairSide_Left",
         true,
         &[[0.088, 1.42, 0.03], [0.092, 1.34, 0.05], [0.09, 1.26, 0.078], [0.084, 1.18, 0.108], [0.08, 1.08, 0.12]],
-        0.9,
-        0.4,
+        SIDE,
     ),
     (
         "HairBack_Middle",
@@ -33,8 +41,7 @@ const CHAINS: &[(&str, bool, &[[f32; 3]], f32, f32)] = &[
             [0.0, 1.01, -0.155],
             [0.0, 0.92, -0.16],
         ],
-        0.8,
-        0.4,
+        BACK,
     ),
     (
         "HairBack_Left1",
@@ -47,8 +54,7 @@ const CHAINS: &[(&str, bool, &[[f32; 3]], f32, f32)] = &[
             [0.07, 1.01, -0.15],
             [0.068, 0.92, -0.155],
         ],
-        0.8,
-        0.4,
+        BACK,
     ),
     (
         "HairBack_Left2",
@@ -61,8 +67,7 @@ const CHAINS: &[(&str, bool, &[[f32; 3]], f32, f32)] = &[
             [0.132, 1.01, -0.128],
             [0.128, 0.92, -0.135],
         ],
-        0.8,
-        0.4,
+        BACK,
     ),
 ];
 
@@ -70,7 +75,7 @@ const CHAINS: &[(&str, bool, &[[f32; 3]], f32, f32)] = &[
 pub(super) fn add(model: &mut Model) -> Vec<(String, Chain)> {
     let head = model.skeleton.find("head");
     let mut chains = Vec::new();
-    for (name, sided, places, stiffness, drag) in CHAINS {
+    for (name, sided, places, [stiffness, drag, gravity]) in CHAINS {
         for sign in if *sided { &[1.0, -1.0][..] } else { &[1.0] } {
             let name = if *sign < 0.0 {
                 name.replace("Left", "Right")
@@ -89,7 +94,7 @@ pub(super) fn add(model: &mut Model) -> Vec<(String, Chain)> {
                 joints: joints.iter().map(|(bone, _)| *bone).collect(),
                 stiffness: *stiffness,
                 drag: *drag,
-                gravity: 0.05,
+                gravity: *gravity,
                 radius: 0.018,
                 colliders: vec!["head", "body"],
             });

@@ -119,7 +119,13 @@ pub(super) fn front() -> Vec<Placed> {
 pub(super) fn side() -> Vec<Placed> {
     let mut locks = Vec::new();
     for sign in [1.0f32, -1.0] {
-        let chain = if sign > 0.0 { "HairSide_Left" } else { "HairSide_Right" };
+        // Behind the ear a lock swings with the back hair: the side chain, whose root lies before the ear, would lift it.
+        let chain = |root: f32| match (root > 90.0, sign > 0.0) {
+            (false, true) => "HairSide_Left",
+            (false, false) => "HairSide_Right",
+            (true, true) => "HairBack_Left2",
+            (true, false) => "HairBack_Right2",
+        };
         let seed = if sign > 0.0 { 3 } else { 4 };
         // Root angle; places at cheek, jaw, collar and tip; half width; thickness.
         let list: &[(f32, [[f32; 3]; 4], f32, f32, u32)] = &[
@@ -213,7 +219,7 @@ pub(super) fn side() -> Vec<Placed> {
                     twist: 0.25 * sign * vary(n, 9),
                     strip: *strip,
                 },
-                chain,
+                chain(*root),
             ));
         }
     }

@@ -44,10 +44,11 @@ fn pendant_chain(model: &mut Model) -> [usize; 2] {
     model.springs.push(Spring {
         name: "Pendant".to_owned(),
         joints: vec![first, second, end],
-        stiffness: 1.0,
-        drag: 0.35,
+        // The cord leaves the bow along the slope of the bust: more weight would draw the stone into it.
+        stiffness: 1.4,
+        drag: 0.25,
         gravity: 0.2,
-        radius: 0.008,
+        radius: 0.012,
         colliders: vec!["body"],
     });
     [first, second]

@@ -79,10 +79,12 @@ fn file(folder: &Path, frame: usize) -> PathBuf {
     folder.join(format!("frame-{frame:04}.png"))
 }
 
-/// Cells in a line of a sheet that is about as wide as high.
+/// Cells in a line of a sheet that is about as wide as high: one more where fewer places stay empty.
 fn columns(count: usize, [width, height]: [u32; 2]) -> usize {
     let shape = (height + LINE + GAP) as f32 / (width + GAP) as f32;
-    ((count as f32 * shape).sqrt().round() as usize).clamp(1, count.max(1))
+    let square = ((count as f32 * shape).sqrt().round() as usize).clamp(1, count.max(1));
+    let empty = |columns: &usize| count.next_multiple_of(*columns) - count;
+    [square, square + 1].into_iter().min_by_key(empty).unwrap_or(square)
 }
 
 #[cfg(test)]
@@ -93,6 +95,8 @@ mod tests {
     fn sheets_are_about_square() {
         assert_eq!(columns(12, [320, 400]), 4);
         assert_eq!(columns(12, [640, 400]), 3);
+        assert_eq!(columns(8, [240, 300]), 4);
+        assert_eq!(columns(10, [320, 400]), 5);
         assert_eq!(columns(1, [10, 4000]), 1);
         assert_eq!(columns(3, [10, 4000]), 3);
     }

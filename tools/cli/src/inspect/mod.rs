@@ -30,7 +30,7 @@ Examples:
 
 The ending of the name decides what a file is; without a known one, its first bytes do.")]
 pub(crate) struct Args {
-    /// Model (.vrm, .glb, .gltf), image (.png, .jpg, .webp) or shader (.wgsl).
+    /// Model or clips (.vrm, .glb, .gltf, .vrma), image (.png, .jpg, .webp) or shader (.wgsl).
     file: PathBuf,
     /// Print JSON.
     #[arg(long)]
@@ -140,7 +140,7 @@ fn shaders(scene: &Scene, name: &str) -> Result<String, Failure> {
 fn kind(path: &Path) -> Result<Kind, Failure> {
     let ending = path.extension().and_then(|e| e.to_str()).unwrap_or("").to_ascii_lowercase();
     match ending.as_str() {
-        "vrm" | "glb" | "gltf" => return Ok(Kind::Model),
+        "vrm" | "glb" | "gltf" | "vrma" => return Ok(Kind::Model),
         "png" | "jpg" | "jpeg" | "webp" => return Ok(Kind::Image),
         "wgsl" => return Ok(Kind::Shader),
         _ => {}

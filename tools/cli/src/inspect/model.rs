@@ -36,6 +36,8 @@ pub(super) struct Summary<'a> {
     pub(super) colliders: usize,
     pub(super) constraints: usize,
     pub(super) animations: Vec<AnimationSummary<'a>>,
+    /// What they move of any humanoid: in VRMA files.
+    pub(super) moves: Option<MovesSummary<'a>>,
     pub(super) gpu_bytes_estimate: GpuBytes,
     pub(super) warnings: Vec<Warning>,
 }
@@ -101,6 +103,13 @@ pub(super) struct AnimationSummary<'a> {
     pub(super) name: &'a str,
     pub(super) channels: usize,
     pub(super) seconds: f32,
+}
+
+#[derive(Serialize)]
+pub(super) struct MovesSummary<'a> {
+    pub(super) bones: Vec<&'static str>,
+    pub(super) expressions: Vec<&'a str>,
+    pub(super) gaze: bool,
 }
 
 #[derive(Serialize)]
@@ -172,6 +181,11 @@ pub(super) fn summarize(scene: &Scene, bytes: u64) -> Summary<'_> {
                 seconds: a.channels.iter().filter_map(|c| c.times.last()).fold(0.0, |end, t| end.max(*t)),
             })
             .collect(),
+        moves: scene.animation_rig.as_ref().map(|rig| MovesSummary {
+            bones: rig.bones.keys().map(|bone| bone.name()).collect(),
+            expressions: rig.expressions.iter().map(|(name, _)| name.as_str()).collect(),
+            gaze: rig.look_at.is_some(),
+        }),
         gpu_bytes_estimate: GpuBytes {
             textures: textures.iter().map(|t| t.gpu_bytes).sum(),
             geometry: geometry_bytes(scene),

@@ -3,7 +3,7 @@
 use hikage::material::{AlphaMode, Outline, OutlineWidth, Shading};
 use serde::Serialize;
 
-use super::model::Summary;
+use super::model::{MovesSummary, Summary};
 use crate::failure::printable;
 use crate::output::{Table, bytes, heading};
 
@@ -70,6 +70,7 @@ fn head(summary: &Summary<'_>) -> String {
                 bytes(gpu.geometry)
             ),
         ),
+        ("moves", summary.moves.as_ref().map(moves).unwrap_or_default()),
         ("look-at", summary.look_at.unwrap_or_default().into()),
         (
             "constraints",
@@ -85,6 +86,17 @@ fn head(summary: &Summary<'_>) -> String {
         .filter(|(_, value)| !value.is_empty())
         .map(|(name, value)| format!("{name:<12}{}\n", printable(value)))
         .collect()
+}
+
+fn moves(moves: &MovesSummary<'_>) -> String {
+    let mut parts = vec![format!("{} bones", moves.bones.len())];
+    if !moves.expressions.is_empty() {
+        parts.push(format!("expressions {}", moves.expressions.join(" ")));
+    }
+    if moves.gaze {
+        parts.push("the gaze".into());
+    }
+    parts.join(", ")
 }
 
 fn meshes(summary: &Summary<'_>) -> Table {

@@ -22,14 +22,14 @@ fn folder(name: &str) -> PathBuf {
     path
 }
 
-fn hikage(folder: &Path, args: &[&str]) -> Output {
+pub(crate) fn hikage(folder: &Path, args: &[&str]) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_hikage"));
     command.args(args).current_dir(folder).output().expect("the program starts")
 }
 
 /// Runs, expects the status, and returns standard error, which is one line for everything but usage.
 #[track_caller]
-fn fails(folder: &Path, args: &[&str], status: i32) -> String {
+pub(crate) fn fails(folder: &Path, args: &[&str], status: i32) -> String {
     let output = hikage(folder, args);
     let error = String::from_utf8(output.stderr).expect("UTF-8");
     assert_eq!(output.status.code(), Some(status), "{args:?}: {error}");
@@ -42,13 +42,13 @@ fn fails(folder: &Path, args: &[&str], status: i32) -> String {
 }
 
 #[track_caller]
-fn succeeds(folder: &Path, args: &[&str]) -> String {
+pub(crate) fn succeeds(folder: &Path, args: &[&str]) -> String {
     let output = hikage(folder, args);
     assert_eq!(output.status.code(), Some(0), "{args:?}: {}", String::from_utf8_lossy(&output.stderr));
     String::from_utf8(output.stdout).expect("UTF-8")
 }
 
-fn files(folder: &Path) -> Vec<String> {
+pub(crate) fn files(folder: &Path) -> Vec<String> {
     let entries = fs::read_dir(folder).expect("folder");
     let mut names: Vec<_> = entries.flatten().map(|e| e.file_name().to_string_lossy().into_owned()).collect();
     names.sort();
@@ -59,11 +59,11 @@ fn files(folder: &Path) -> Vec<String> {
 fn help_names_every_command_and_the_exit_statuses() {
     let dir = folder("help");
     let help = succeeds(&dir, &["--help"]);
-    for word in ["render", "sheet", "inspect", "bench", "adapters", "Exit status", "NO_COLOR", "--timeout"] {
+    for word in ["render", "sheet", "animate", "inspect", "bench", "adapters", "Exit status", "NO_COLOR", "--timeout"] {
         assert!(help.contains(word), "{word} in {help}");
     }
     assert!(!help.contains("compare-references"));
-    for command in ["render", "sheet", "inspect", "bench", "adapters"] {
+    for command in ["render", "sheet", "animate", "inspect", "bench", "adapters"] {
         assert!(succeeds(&dir, &[command, "--help"]).contains("Usage: hikage"), "{command}");
     }
     assert!(succeeds(&dir, &["--version"]).starts_with("hikage "));

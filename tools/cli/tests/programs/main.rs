@@ -3,6 +3,7 @@
 #[path = "../../../../tests/support/gltf.rs"]
 mod gltf;
 
+mod animate;
 mod cli;
 mod determinism;
 mod motion;
