@@ -14,7 +14,7 @@ use super::fault::Limits;
 use super::json::Json;
 use super::mtoon0::linear_from_emission;
 use super::spring::colliders_of;
-use super::vrm1::{Context, check_bones, first_person, node_targets, range_map};
+use super::vrm1::{Context, bind_weight, check_bones, first_person, node_targets, range_map};
 use super::warnings::Warnings;
 
 /// Reads the extension.
@@ -132,7 +132,7 @@ fn expression(
                 return out;
             }
             if let Some(target) = bind.maybe_index("index", node_targets(cx, node)) {
-                out.morphs.push(MorphBind { node, target, weight: bind.f32_or("weight", 100.0) / 100.0 });
+                out.morphs.push(MorphBind { node, target, weight: bind_weight(&bind, 100.0, warnings) });
             }
         }
         if out.morphs.len() == before {

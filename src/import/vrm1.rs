@@ -168,7 +168,7 @@ fn expression(name: &str, preset: bool, json: &Json, cx: &Context, warnings: &mu
         let targets = node.map_or(0, |n| node_targets(cx, n));
         match (node, bind.maybe_index("index", targets)) {
             (Some(node), Some(target)) => {
-                out.morphs.push(MorphBind { node, target, weight: bind.f32_or("weight", 1.0) })
+                out.morphs.push(MorphBind { node, target, weight: bind_weight(&bind, 1.0, warnings) })
             }
             _ => warnings.add(bind.pointer(), "expression drives a morph target that does not exist: bind skipped"),
         }
@@ -201,6 +201,18 @@ fn expression(name: &str, preset: bool, json: &Json, cx: &Context, warnings: &mu
         }
     }
     out
+}
+
+/// Largest weight of a morph under an expression: the specification's is 1, files that exaggerate have a few.
+const MOST_WEIGHT: f32 = 100.0;
+
+/// Weight of a morph under an expression, written in parts of `whole`.
+pub(super) fn bind_weight(bind: &Json, whole: f32, warnings: &mut Warnings) -> f32 {
+    let weight = bind.f32_or("weight", whole) / whole;
+    if weight.abs() > MOST_WEIGHT {
+        warnings.add(bind.pointer(), format!("weight of a morph is far beyond 1: taken as {MOST_WEIGHT}"));
+    }
+    weight.clamp(-MOST_WEIGHT, MOST_WEIGHT)
 }
 
 /// How many morph targets the mesh of a node has.

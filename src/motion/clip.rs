@@ -178,11 +178,12 @@ impl Clip {
         self
     }
 
-    /// Leaves out what rest poses of no size have made infinite.
+    /// Leaves out what rest poses of no size have made infinite, or so large that what lies between keys would be.
     fn keep_finite(&mut self) {
+        const LARGEST: f32 = 1e15;
         let before = self.rotations.len() + self.translations.len();
-        self.rotations.retain(|c| c.tracks.iter().all(|t| t.values.iter().all(|q| q.is_finite())));
-        self.translations.retain(|c| c.track.values.iter().all(|v| v.is_finite()));
+        self.rotations.retain(|c| c.tracks.iter().all(|t| t.values.iter().all(|q| q.length() < LARGEST)));
+        self.translations.retain(|c| c.track.values.iter().all(|v| v.length() < LARGEST));
         let left_out = before - self.rotations.len() - self.translations.len();
         if left_out > 0 {
             self.warnings.push(format!("{left_out} movements have no size in the rest pose of the file: left out"));

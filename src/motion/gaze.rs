@@ -142,6 +142,10 @@ impl Gaze {
         let turned = mul(place.rotation, inverse(skeleton.rest_places[head.head].rotation));
         let v = turn(inverse(turned), Vec3::new(point.x - origin.x, point.y - origin.y, point.z - origin.z));
         let level = (v.x * v.x + v.z * v.z).sqrt();
+        // Out of reach of numbers: straight ahead.
+        if !(level < f32::MAX && v.y.abs() < f32::MAX) {
+            return [self.yaw, 0.0];
+        }
         let yaw = if level < NO_YAW_M {
             self.yaw
         } else {

@@ -14,6 +14,7 @@ mod gallery;
 mod inspect;
 mod look;
 mod looks;
+mod motion;
 mod output;
 mod placed;
 mod pose;

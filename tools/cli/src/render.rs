@@ -11,8 +11,9 @@ use hikage::{Actor, Background, Channel, GpuMemory, Ground, Output, Renderer, St
 use serde::Serialize;
 
 use crate::args::{self, LookName, ViewName};
-use crate::clips::{LookAt, Motion, MotionArgs, Moving, Sources};
+use crate::clips::{LookAt, MotionArgs, Sources};
 use crate::failure::Failure;
+use crate::motion::{Motion, Moving};
 use crate::placed::{Placed, placed};
 use crate::shot::Shot;
 use crate::spinner::Spinner;

@@ -12,8 +12,9 @@ use hikage::{Actor, Background, Ground, Output, Renderer, Stage, View};
 
 use crate::animation::Kind;
 use crate::args::{self, LookName, ViewName};
-use crate::clips::{ClipName, LookAt, Motion, MotionArgs, Moving, Sources};
+use crate::clips::{ClipName, LookAt, MotionArgs, Sources};
 use crate::failure::{Failure, warn};
+use crate::motion::{Motion, Moving};
 use crate::sheet::{self, BEHIND};
 use crate::spinner::Spinner;
 use crate::{deadline, output, setup};

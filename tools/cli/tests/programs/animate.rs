@@ -34,7 +34,7 @@ const BONES: &[(&str, usize, [f32; 3])] = &[
 /// A humanoid of a triangle a bone, with a swinging plait, and an animation of its own that turns the plait.
 fn doll() -> Vec<u8> {
     let mut glb = Glb::triangle();
-    let small = floats(&[-0.1, 0., 0., 0.1, 0., 0., 0., -0.3, 0.]);
+    let small = floats(&[-0.1, 0., 0., 0., -0.3, 0., 0.1, 0., 0.]);
     let positions = glb.accessor(F32, "VEC3", &small, 3, false);
     glb.primitive()["attributes"]["POSITION"] = json!(positions);
     let mut nodes: Vec<Value> =
@@ -133,12 +133,12 @@ fn an_animation_is_written_in_every_form_and_always_the_same() {
     assert!(output.status.success() && said.contains("frame-0001.png: is of an earlier animation"), "{said}");
     assert_eq!(files(&written).len(), 4);
 
-    // Two sides of it, and a sheet of four moments in a line.
+    // Two sides of it, and a sheet of four moments, two in a line.
     animate(&["--seconds", "0.1", "--fps", "10", "--yaw", "0,90", "-o", "sides.webp"]);
     assert_eq!(frames(&dir.join("sides.webp"), (128, 80)).len(), 1);
     animate(&["--frames", "4", "-o", "sheet.png"]);
     let sheet = hikage::picture::read_png(dir.join("sheet.png")).expect("a sheet");
-    assert_eq!((sheet.width, sheet.height), (4 * 72 + 8, 80 + 24 + 16));
+    assert_eq!((sheet.width, sheet.height), (2 * 72 + 8, 2 * 112 + 8));
 }
 
 #[test]
