@@ -121,23 +121,29 @@ fn the_window_shows_the_character() {
 
 #[test]
 fn the_playground_is_played() {
-    let girl = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/oracles/motion/models/everything.vrm");
-    let Some(mut screen) = Screen::with("game", &[&girl, &girl, Path::new("--auto")]) else { return };
+    let Some(mut screen) = Screen::with("game", &[Path::new("--auto")]) else { return };
+    let count = |screen: &hikage::scene::Image, is: fn(i32, i32, i32) -> bool| {
+        let pixels = screen.pixels.chunks_exact(4).map(|p| [p[0], p[1], p[2]].map(i32::from));
+        pixels.filter(|[r, g, b]| is(*r, *g, *b)).count()
+    };
+    let lilac = |r, g, b| r > 130 && g < r && b > r + 15;
+    let ginger = |r, g, b| r > 150 && r > g + 45 && g >= b;
     let first = screen.picture("the playground", has([0xb9, 0xd3, 0xe6]));
-    // The player walks, and the camera with it: boxes and ground go by.
+    assert!(count(&first, lilac) > 400, "the player stands before the camera");
+    assert!(count(&first, ginger) > 40, "and another one there");
+    // The player walks, and the camera with it: boxes and ground go by, the other comes nearer.
     let changed = |screen: &hikage::scene::Image| {
         let pairs = screen.pixels.chunks_exact(4).zip(first.pixels.chunks_exact(4));
         pairs.filter(|(a, b)| a != b).count()
     };
-    let later = screen.picture("the playground later", |screen| changed(screen) > 20_000);
-    let is_box = |p: &[u8]| p[0] > 180 && p[2] < 150;
-    assert!(later.pixels.chunks_exact(4).filter(|p| is_box(p)).count() > 500, "boxes stand about");
+    let later = screen.picture("the playground later", |screen| changed(screen) > 60_000);
+    assert!(count(&later, lilac) > 400, "the camera has not kept up");
 }
 
 fn wait_for(what: &str, mut ready: impl FnMut() -> bool) {
     let start = Instant::now();
     while !ready() {
-        assert!(start.elapsed() < Duration::from_secs(120), "waiting for {what}");
+        assert!(start.elapsed() < Duration::from_secs(300), "waiting for {what}");
         std::thread::sleep(Duration::from_millis(100));
     }
 }

@@ -2,6 +2,7 @@
 
 use glam::{Quat, Vec3};
 
+use super::expression::share;
 use super::gaze::{Angles, angles_of};
 use super::retarget;
 use super::track::{Track, WeightTrack};
@@ -203,7 +204,7 @@ impl Clip {
 
     /// Weight that the clip gives to an expression, where it gives it one. Range 0..1.
     pub(crate) fn expressions_at(&self, time: f64) -> impl Iterator<Item = (usize, f32)> {
-        self.expressions.iter().map(move |(e, track)| (*e, track.sample(time).x.max(0.0).min(1.0)))
+        self.expressions.iter().map(move |(e, track)| (*e, share(track.sample(time).x)))
     }
 
     pub(crate) fn gaze_at(&self, time: f64) -> Option<Angles> {

@@ -6,12 +6,20 @@ use crate::{
     scene::{Expression, ExpressionOverride, Scene},
 };
 
-/// Kinds of expressions that others may override: names, and how.
-const KINDS: [(&[&str], fn(&Expression) -> ExpressionOverride); 3] = [
+/// Names of a kind of expressions, and how others override it.
+type Kind = (&'static [&'static str], fn(&Expression) -> ExpressionOverride);
+
+/// Kinds of expressions that others may override.
+const KINDS: [Kind; 3] = [
     (&["blink", "blinkLeft", "blinkRight"], |e| e.override_blink),
     (&["lookUp", "lookDown", "lookLeft", "lookRight"], |e| e.override_look_at),
     (&["aa", "ih", "ou", "ee", "oh"], |e| e.override_mouth),
 ];
+
+/// The same from 0 to 1; NaN is nothing.
+pub(crate) fn share(weight: f32) -> f32 {
+    if weight > 0.0 { weight.min(1.0) } else { 0.0 }
+}
 
 /// The kind of each expression, in [`KINDS`]; `None` for those that nothing overrides.
 pub(crate) fn kinds_of(expressions: &[Expression]) -> Vec<Option<usize>> {
@@ -24,8 +32,7 @@ pub(crate) fn kinds_of(expressions: &[Expression]) -> Vec<Option<usize>> {
 pub(crate) fn resolve(expressions: &[Expression], kinds: &[Option<usize>], weights: &mut [f32]) {
     let mut amounts = [0f32; KINDS.len()];
     for ((weight, expression), own) in weights.iter_mut().zip(expressions).zip(kinds) {
-        // NaN is nothing.
-        *weight = weight.max(0.0).min(1.0);
+        *weight = share(*weight);
         if expression.is_binary {
             *weight = f32::from(u8::from(*weight > 0.5));
         }

@@ -103,7 +103,7 @@ impl Player {
         self.gaze = None;
         let Self { layers, expressions, gaze, mixed, .. } = self;
         mixed.fit(skeleton.node_count());
-        let mut gazes = 0.0;
+        let mut gazes = 0f32;
         for layer in layers {
             match layer.blend {
                 Blend::Override => {
@@ -124,12 +124,13 @@ impl Player {
                 }
                 if let Some(angles) = play.clip.gaze_at(time) {
                     gazes += play.weight;
-                    let share = play.weight / gazes;
-                    let before = gaze.unwrap_or(angles);
-                    *gaze = Some([0, 1].map(|i| before[i] + (angles[i] - before[i]) * share));
+                    let sum = gaze.unwrap_or_default();
+                    *gaze = Some([0, 1].map(|i| sum[i] + angles[i] * play.weight));
                 }
             }
         }
+        // Where weights sum to less than 1, the rest looks straight ahead.
+        *gaze = gaze.map(|sum| sum.map(|angle| angle / gazes.max(1.0)));
     }
 }
 
