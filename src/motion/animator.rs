@@ -146,14 +146,6 @@ impl Animator {
         self.springs.warp(skeleton, &Place::of(from), &Place::of(to));
     }
 
-    /// Lets chains come to rest in a pose, for a still picture: `seconds` of swinging without movement.
-    pub fn settle(&mut self, skeleton: &Skeleton, world: &Mat4, pose: &mut Pose, seconds: f32) {
-        let place = Place::of(world);
-        for _ in 0..(seconds.clamp(0.0, 60.0) / super::SPRING_STEP_S) as u32 {
-            self.springs.step(skeleton, &mut pose.locals, &place, super::SPRING_STEP_S);
-        }
-    }
-
     /// Asks for an expression, from now on: a weight of 0..1 that is added to what clips say; 0 asks for nothing.
     ///
     /// # Errors

@@ -24,6 +24,7 @@ mod host;
 mod laws;
 mod layers;
 mod limits;
+mod motion;
 mod natural;
 mod oracles;
 mod own_look;

@@ -170,8 +170,8 @@ pub struct Spring {
     pub name: String,
     /// Bones from root to tip; the last one only marks the end.
     pub joints: Vec<usize>,
-    /// Force back to the rest shape, 0..4.
-    pub stiffness: f32,
+    /// Force back to the rest shape at the root and at the tip, 0..4.
+    pub stiffness: [f32; 2],
     /// Loss of speed, 0..1.
     pub drag: f32,
     /// Downward force.

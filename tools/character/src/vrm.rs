@@ -107,9 +107,12 @@ pub(crate) fn spring_bone(model: &Model) -> Value {
             let joints: Vec<Value> = s
                 .joints
                 .iter()
-                .map(|bone| {
+                .enumerate()
+                .map(|(i, bone)| {
+                    let [root, tip] = s.stiffness;
+                    let stiffness = root + (tip - root) * i as f32 / (s.joints.len() - 1).max(1) as f32;
                     json!({
-                        "node": bone, "hitRadius": s.radius, "stiffness": s.stiffness, "dragForce": s.drag,
+                        "node": bone, "hitRadius": s.radius, "stiffness": stiffness, "dragForce": s.drag,
                         "gravityPower": s.gravity, "gravityDir": [0.0, -1.0, 0.0],
                     })
                 })

@@ -116,6 +116,12 @@ impl Stride {
     }
 }
 
+/// A foot on the ground with its heel raised to a pitch over the toes, which stay where they are.
+pub(super) fn heel_up(foot: Foot, pitch: f32) -> Foot {
+    let moved = turn(foot.out, 0.0, 0.0) * (turn(0.0, foot.pitch, 0.0) * TOES - turn(0.0, pitch, 0.0) * TOES);
+    Foot { ankle: foot.ankle + moved, pitch, ..foot }
+}
+
 /// From 0 at a phase of stance to a value at its end, ever faster.
 fn rising(s: f32, (from, end): (f32, f32)) -> f32 {
     let u = ((s - from) / (1.0 - from)).max(0.0);

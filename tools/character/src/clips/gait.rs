@@ -47,6 +47,8 @@ struct Gait {
     /// Abduction and twist of the upper arm, most when it is before the body.
     abduct: Wave,
     twist: Wave,
+    /// Gaze against the head: yaw once, pitch twice a stride.
+    gaze: [Wave; 2],
     /// What else the arm does.
     arm: Arm,
 }
@@ -64,30 +66,31 @@ fn walk_gait() -> Gait {
             heel_off: (0.42, 64.0),
             toe_roll: (0.8, 24.0),
             swing: &[
-                [0.28, -0.15, 0.197, 47.0, 18.0],
-                [0.58, 0.115, 0.122, 8.0, -6.0],
+                [0.28, -0.15, 0.192, 46.0, 18.0],
+                [0.58, 0.115, 0.114, 6.0, -6.0],
                 [0.84, 0.25, 0.107, -13.0, -6.0],
             ],
-            lift: 0.2,
+            lift: 0.26,
             landing: 0.5,
-            apart: [0.036, 0.066],
+            apart: [0.052, 0.066],
             out: 4.0,
-            knee: 0.0,
+            knee: 3.0,
         },
-        aside: (0.0, 0.017, 0.3),
-        up: (0.836, 0.015, 0.29),
+        aside: (0.0, 0.02, 0.3),
+        up: (0.8385, 0.0165, 0.29),
         ahead: (0.0, 0.006, 0.15),
         pelvis: [(0.0, -7.5, 0.0), (3.0, 1.2, 0.02), (0.0, 4.6, 0.2)],
         chest: [(0.0, 5.5, 0.03), (1.5, 1.0, 0.06), (0.0, -2.2, 0.24)],
-        head: [(0.0, 1.2, 0.06), (1.5, -0.7, 0.08), (0.0, -0.8, 0.28)],
+        head: [(0.0, 2.6, 0.12), (0.5, -1.8, 0.1), (0.0, -2.2, 0.32)],
         raise: (-2.0, 0.8, 0.12),
         protract: (0.0, -4.0, 0.03),
         swing: (-3.0, -19.0, 0.03),
-        elbow: (21.0, -9.0, 0.1),
-        flex: (4.0, 6.0, 0.2),
-        abduct: (19.5, 1.5, 0.05),
-        twist: (14.0, -7.0, 0.05),
-        arm: Arm { pronate: 14.0, curl: 1.0, ..Arm::default() },
+        elbow: (29.0, -11.0, 0.1),
+        flex: (2.0, 7.0, 0.22),
+        abduct: (19.5, 1.0, 0.05),
+        twist: (10.0, -8.0, 0.05),
+        gaze: [(0.0, -3.0, 0.1), (-1.5, 1.2, 0.1)],
+        arm: Arm { pronate: 14.0, curl: 1.35, ..Arm::default() },
     }
 }
 
@@ -98,7 +101,7 @@ fn run_gait() -> Gait {
         stride: Stride {
             length: 2.36,
             stance: 0.3,
-            reach: 0.205,
+            reach: 0.195,
             strike: -5.0,
             flat: 0.18,
             heel_off: (0.4, 66.0),
@@ -116,19 +119,20 @@ fn run_gait() -> Gait {
             knee: 0.0,
         },
         aside: (0.0, 0.01, 0.15),
-        up: (0.824, 0.025, 0.4),
+        up: (0.824, 0.025, 0.385),
         ahead: (0.0, 0.004, 0.4),
-        pelvis: [(0.0, -6.0, 0.02), (8.0, 2.0, 0.2), (0.0, 3.5, 0.12)],
-        chest: [(0.0, 9.0, 0.03), (13.0, 1.5, 0.24), (0.0, -2.0, 0.16)],
-        head: [(0.0, 1.5, 0.08), (5.0, -1.0, 0.24), (0.0, -1.0, 0.2)],
+        pelvis: [(0.0, -8.0, 0.02), (11.0, 2.5, 0.24), (0.0, 3.5, 0.12)],
+        chest: [(0.0, 11.0, 0.03), (19.0, 2.0, 0.27), (0.0, -2.0, 0.16)],
+        head: [(0.0, 1.5, 0.08), (7.0, -1.5, 0.28), (0.0, -1.0, 0.2)],
         raise: (0.0, 1.6, 0.22),
         protract: (2.0, -7.0, 0.03),
-        swing: (-2.0, -34.0, 0.02),
-        elbow: (86.0, -10.0, 0.08),
-        flex: (4.0, 7.0, 0.16),
-        abduct: (25.0, 6.0, 0.02),
-        twist: (14.0, -14.0, 0.04),
-        arm: Arm { pronate: 8.0, curl: 2.3, ..Arm::default() },
+        swing: (-10.0, -36.0, 0.02),
+        elbow: (106.0, -9.0, 0.08),
+        flex: (2.0, 6.0, 0.16),
+        abduct: (22.0, 4.0, 0.52),
+        twist: (2.0, -12.0, 0.04),
+        gaze: [(0.0, -1.5, 0.08), (-3.0, 1.5, 0.28)],
+        arm: Arm { pronate: -6.0, curl: 3.1, ..Arm::default() },
     }
 }
 
@@ -157,7 +161,7 @@ impl Gait {
             head: direction(self.head),
             arms: [phase, phase + 0.5].map(|p| self.left_arm(p)),
             feet: [phase, phase + 0.5].map(|p| path.at(p)),
-            gaze: [0.0; 2],
+            gaze: [once(self.gaze[0], phase), twice(self.gaze[1], phase)],
         }
         .moved(way)
     }

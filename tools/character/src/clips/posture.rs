@@ -29,7 +29,7 @@ pub(super) struct Arm {
     pub pronate: f32,
     /// Hand towards the palm.
     pub flex: f32,
-    /// Hand towards the thumb.
+    /// Hand towards the little finger.
     pub deviate: f32,
     /// Share of a relaxed curl of the fingers: 0 straight, 1 relaxed, 4 a fist.
     pub curl: f32,

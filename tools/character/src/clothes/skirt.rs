@@ -61,7 +61,7 @@ fn chains(model: &mut Model) -> Vec<[usize; 2]> {
                 name: (*name).to_owned(),
                 joints: joints.clone(),
                 // Stiff, so that it keeps its bell at the speed of a run.
-                stiffness: 3.6,
+                stiffness: [3.6; 2],
                 drag: 0.28,
                 gravity: 0.25,
                 radius: 0.02,

@@ -11,14 +11,15 @@ pub(super) struct Chain {
     joints: Vec<(usize, Vec3)>,
 }
 
-/// How a chain swings: stiffness, drag and gravity.
+/// How a chain swings: stiffness at the root and at the tip, drag and gravity.
 ///
 /// Drag holds a chain back in the world: at speed v (m/s) it trails by about atan(v * drag / (stiffness + gravity)), more with
-/// each bone up to atan(v * drag / gravity). These let the hair lean back in a walk and stream in a run.
-type Swing = [f32; 3];
-const FRONT: Swing = [3.0, 0.3, 0.05];
-const SIDE: Swing = [1.7, 0.28, 0.25];
-const BACK: Swing = [1.6, 0.25, 0.45];
+/// each bone up to atan(v * drag / gravity). These let the hair lean back a little in a
+/// walk and stream in waves in a run.
+type Swing = ([f32; 2], f32, f32);
+const FRONT: Swing = ([3.0, 3.0], 0.3, 0.05);
+const SIDE: Swing = ([1.5, 0.6], 0.18, 0.3);
+const BACK: Swing = ([1.9, 0.4], 0.14, 0.65);
 
 /// Places of the chains' bones. Those of the left side are mirrored.
 const CHAINS: &[(&str, bool, &[[f32; 3]], Swing)] = &[
@@ -75,7 +76,7 @@ const CHAINS: &[(&str, bool, &[[f32; 3]], Swing)] = &[
 pub(super) fn add(model: &mut Model) -> Vec<(String, Chain)> {
     let head = model.skeleton.find("head");
     let mut chains = Vec::new();
-    for (name, sided, places, [stiffness, drag, gravity]) in CHAINS {
+    for (name, sided, places, (stiffness, drag, gravity)) in CHAINS {
         for sign in if *sided { &[1.0, -1.0][..] } else { &[1.0] } {
             let name = if *sign < 0.0 {
                 name.replace("Left", "Right")

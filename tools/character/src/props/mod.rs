@@ -45,7 +45,7 @@ fn pendant_chain(model: &mut Model) -> [usize; 2] {
         name: "Pendant".to_owned(),
         joints: vec![first, second, end],
         // The cord leaves the bow along the slope of the bust: more weight would draw the stone into it.
-        stiffness: 1.4,
+        stiffness: [1.4; 2],
         drag: 0.25,
         gravity: 0.2,
         radius: 0.012,
