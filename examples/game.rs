@@ -9,15 +9,16 @@ use glam::{Mat4, Quat, Vec3};
 use hikage::material::{Base, Material, Outline, OutlineWidth, Shading, Toon};
 use hikage::motion::{Blink, Clip, GazeTarget, Play, RootMotion, SPRING_STEP_S};
 use hikage::scene::{Antialias, Camera, HumanBone, Mesh, Node, Primitive, Role, Scene};
-use hikage::{
-    Actor, Background, Character, Gpu, Grid, Ground, Look, Output, Renderer, Stage, View, color::Srgb, import,
-};
+use hikage::{Actor, Background, Character, Grid, Ground, Look, Renderer, Stage, View, color::Srgb, import};
 use winit::application::ApplicationHandler;
-use winit::dpi::PhysicalSize;
 use winit::event::{ElementState, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, EventLoop};
 use winit::keyboard::{KeyCode, PhysicalKey};
-use winit::window::{Window, WindowId};
+use winit::window::WindowId;
+
+#[path = "screen/mod.rs"]
+mod screen;
+use screen::Screen;
 
 const SKY: Srgb = Srgb([0xb9, 0xd3, 0xe6]);
 /// Boxes: middle of the base and half of the height, metres.
@@ -111,9 +112,7 @@ struct Game {
     /// How fast the player wants to go: 0 stands, 1 walks, 2 runs.
     pace: usize,
     has_waved: bool,
-    camera_yaw: f32,
     auto: bool,
-    time_s: f32,
 }
 
 impl Game {
@@ -133,11 +132,10 @@ impl Game {
         stage.ground = Some(Ground { radius_m: 14.0, color: green, grid: Some(grid), ..Ground::default() });
         stage.lights.directional.to_light = Vec3::new(0.5, 0.8, 0.45).normalize();
         stage.post.get_or_insert_default().antialias = Antialias::Fxaa;
-        Ok(Self { stage, cast, pace: 0, has_waved: false, camera_yaw: 0.0, auto, time_s: 0.0 })
+        Ok(Self { stage, cast, pace: 0, has_waved: false, auto })
     }
 
     fn update(&mut self, keys: &HashSet<KeyCode>, dt: f32) {
-        self.time_s += dt;
         let held = |list: &[KeyCode]| f32::from(u8::from(list.iter().any(|k| keys.contains(k))));
         use KeyCode::{ArrowDown, ArrowLeft, ArrowRight, ArrowUp, KeyA, KeyD, KeyS, KeyW, ShiftLeft, ShiftRight};
         let mut way = Vec3::new(
@@ -148,7 +146,7 @@ impl Game {
         let mut is_fast = held(&[ShiftLeft, ShiftRight]) > 0.0;
         if self.auto {
             // A round of ten seconds: ahead, and back at a run.
-            let t = self.time_s % 10.0;
+            let t = self.stage.time_s % 10.0;
             (way, is_fast) = (
                 if t < 2.5 {
                     Vec3::NEG_Z
@@ -160,7 +158,6 @@ impl Game {
                 t > 7.5,
             );
         }
-        let way = Quat::from_rotation_y(self.camera_yaw) * way;
         self.go(way, if way == Vec3::ZERO { 0 } else { 1 + usize::from(is_fast) }, dt);
         self.meet();
         self.stage.update(dt);
@@ -219,7 +216,7 @@ impl Game {
     fn view(&self, size: [u32; 2]) -> View {
         let place = self.stage.actors[0].world.w_axis.truncate();
         let target = place + Vec3::Y * 1.15;
-        let eye = target + Quat::from_rotation_y(self.camera_yaw) * Vec3::new(0.35, 0.55, 3.6);
+        let eye = target + Vec3::new(0.35, 0.55, 3.6);
         let camera = Camera { eye, target, fov_y_rad: 45f32.to_radians(), ..Camera::default() };
         View { size, camera, background: Background::Color(SKY), ..View::default() }
     }
@@ -234,10 +231,7 @@ struct App {
 
 /// Everything that exists only while the window does.
 struct Shown {
-    window: Arc<Window>,
-    surface: wgpu::Surface<'static>,
-    config: wgpu::SurfaceConfiguration,
-    gpu: Gpu,
+    screen: Screen,
     renderer: Renderer,
     game: Game,
     keys: HashSet<KeyCode>,
@@ -246,52 +240,23 @@ struct Shown {
 
 impl Shown {
     fn new(event_loop: &ActiveEventLoop, app: &App) -> Result<Self, Box<dyn Error>> {
-        let attributes = Window::default_attributes().with_title("Hikage").with_inner_size(PhysicalSize::new(960, 600));
-        let window = Arc::new(event_loop.create_window(attributes)?);
-        let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
-        let surface = instance.create_surface(window.clone())?;
-        let options = wgpu::RequestAdapterOptions { compatible_surface: Some(&surface), ..Default::default() };
-        let adapter = pollster::block_on(instance.request_adapter(&options))?;
-        let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
-            required_limits: Gpu::required_limits(&adapter),
-            required_features: Gpu::wanted_features(&adapter),
-            ..Default::default()
-        }))?;
-        let gpu = Gpu::from_parts(&adapter, device, queue);
-        let size = window.inner_size();
-        let config = surface.get_default_config(&adapter, size.width.max(1), size.height.max(1));
-        let mut config = config.ok_or("the adapter cannot show this window")?;
-        let formats = surface.get_capabilities(&adapter).formats;
-        config.format = formats.into_iter().find(wgpu::TextureFormat::is_srgb).unwrap_or(config.format);
-        surface.configure(&gpu.device, &config);
-        let renderer = Renderer::with_output(&gpu, Output { format: config.format, ..Output::default() })?;
+        let screen = Screen::open(event_loop, [960, 600])?;
+        let renderer = Renderer::with_output(&screen.gpu, screen.output())?;
         let game = Game::new(&renderer, &app.models, app.auto)?;
-        Ok(Self { window, surface, config, gpu, renderer, game, keys: HashSet::new(), last: Instant::now() })
+        Ok(Self { screen, renderer, game, keys: HashSet::new(), last: Instant::now() })
     }
 
     fn draw(&mut self) -> Result<(), Box<dyn Error>> {
-        use wgpu::CurrentSurfaceTexture as Current;
-        let frame = match self.surface.get_current_texture() {
-            Current::Success(frame) | Current::Suboptimal(frame) => frame,
-            Current::Outdated | Current::Lost => {
-                self.surface.configure(&self.gpu.device, &self.config);
-                return Ok(());
-            }
-            Current::Timeout | Current::Occluded => return Ok(()),
-            Current::Validation => return Err("the window's surface is invalid".into()),
-        };
-        let dt = self.last.elapsed().as_secs_f32().min(4.0 * SPRING_STEP_S);
-        self.last = Instant::now();
-        self.game.update(&self.keys, dt);
-        let target = frame.texture.create_view(&wgpu::TextureViewDescriptor::default());
-        let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        let view = self.game.view([self.config.width, self.config.height]);
-        self.renderer.prepare(&mut encoder, &mut self.game.stage)?;
-        self.renderer.draw(&mut encoder, &self.game.stage, &view, &target)?;
-        self.gpu.queue.submit([encoder.finish()]);
-        self.window.pre_present_notify();
-        self.gpu.queue.present(frame);
-        self.window.request_redraw();
+        let Self { screen, renderer, game, keys, last } = self;
+        let dt = last.elapsed().as_secs_f32().min(4.0 * SPRING_STEP_S);
+        *last = Instant::now();
+        game.update(keys, dt);
+        let view = game.view(screen.size());
+        screen.show(|encoder, target| {
+            renderer.prepare(encoder, &mut game.stage)?;
+            renderer.draw(encoder, &game.stage, &view, target)
+        })?;
+        screen.window.request_redraw();
         Ok(())
     }
 }
@@ -311,10 +276,7 @@ impl ApplicationHandler for App {
         let Some(shown) = &mut self.shown else { return };
         match event {
             WindowEvent::CloseRequested => event_loop.exit(),
-            WindowEvent::Resized(size) => {
-                [shown.config.width, shown.config.height] = [size.width.max(1), size.height.max(1)];
-                shown.surface.configure(&shown.gpu.device, &shown.config);
-            }
+            WindowEvent::Resized(size) => shown.screen.resize(size),
             WindowEvent::KeyboardInput { event, .. } => {
                 if let PhysicalKey::Code(key) = event.physical_key {
                     if event.state == ElementState::Pressed {

@@ -3,22 +3,25 @@
 //!
 //! `cargo run --release --example window -- MODEL.vrm`
 
-use std::{error::Error, path::Path, sync::Arc, time::Instant};
+use std::{error::Error, path::Path, time::Instant};
 
 use glam::{Quat, Vec3};
 use hikage::{
-    Actor, Background, Gpu, Output, Renderer, Stage, View,
+    Actor, Background, Renderer, Stage, View,
     color::Srgb,
     import,
     scene::{Antialias, Camera, Framing, Scene},
 };
 use winit::{
     application::ApplicationHandler,
-    dpi::PhysicalSize,
     event::{ElementState, MouseButton, MouseScrollDelta, WindowEvent},
     event_loop::{ActiveEventLoop, EventLoop},
-    window::{Window, WindowId},
+    window::WindowId,
 };
+
+#[path = "screen/mod.rs"]
+mod screen;
+use screen::Screen;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let model = std::env::args().nth(1).ok_or("usage: window MODEL.vrm")?;
@@ -36,10 +39,7 @@ struct App {
 
 /// Everything that exists only while the window does.
 struct Shown {
-    window: Arc<Window>,
-    surface: wgpu::Surface<'static>,
-    config: wgpu::SurfaceConfiguration,
-    gpu: Gpu,
+    screen: Screen,
     renderer: Renderer,
     stage: Stage,
     orbit: Orbit,
@@ -80,31 +80,10 @@ impl Orbit {
 
 impl Shown {
     fn new(event_loop: &ActiveEventLoop, scene: &Scene) -> Result<Self, Box<dyn Error>> {
-        let attributes = Window::default_attributes().with_title("Hikage").with_inner_size(PhysicalSize::new(800, 800));
-        let window = Arc::new(event_loop.create_window(attributes)?);
-        let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
-        let surface = instance.create_surface(window.clone())?;
-        let adapter = pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions {
-            compatible_surface: Some(&surface),
-            ..Default::default()
-        }))?;
-        let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
-            required_limits: Gpu::required_limits(&adapter),
-            required_features: Gpu::wanted_features(&adapter),
-            ..Default::default()
-        }))?;
-        let gpu = Gpu::from_parts(&adapter, device, queue);
-        let size = window.inner_size();
-        let mut config = surface
-            .get_default_config(&adapter, size.width.max(1), size.height.max(1))
-            .ok_or("the adapter cannot show this window")?;
-        let formats = surface.get_capabilities(&adapter).formats;
-        config.format = formats.into_iter().find(wgpu::TextureFormat::is_srgb).unwrap_or(config.format);
-        surface.configure(&gpu.device, &config);
-        let renderer = Renderer::with_output(&gpu, Output { format: config.format, ..Output::default() })?;
+        let screen = Screen::open(event_loop, [800, 800])?;
+        let renderer = Renderer::with_output(&screen.gpu, screen.output())?;
         let stage = Stage::of([Actor::new(&renderer.upload(scene)?)]);
-        let orbit = Orbit::around(scene);
-        Ok(Self { window, surface, config, gpu, renderer, stage, orbit, start: Instant::now() })
+        Ok(Self { screen, renderer, stage, orbit: Orbit::around(scene), start: Instant::now() })
     }
 
     fn load(&mut self, path: &Path) -> Result<Scene, Box<dyn Error>> {
@@ -117,7 +96,7 @@ impl Shown {
     fn view(&self) -> View {
         let Orbit { target, near, .. } = self.orbit;
         View {
-            size: [self.config.width, self.config.height],
+            size: self.screen.size(),
             camera: Camera { eye: self.orbit.eye(), target, near, ..Camera::default() },
             background: Background::Color(Srgb([0x9f, 0xb4, 0xc7])),
             ..View::default()
@@ -125,26 +104,13 @@ impl Shown {
     }
 
     fn draw(&mut self) -> Result<(), Box<dyn Error>> {
-        use wgpu::CurrentSurfaceTexture as Current;
-        let frame = match self.surface.get_current_texture() {
-            Current::Success(frame) | Current::Suboptimal(frame) => frame,
-            Current::Outdated | Current::Lost => {
-                self.surface.configure(&self.gpu.device, &self.config);
-                return Ok(());
-            }
-            Current::Timeout | Current::Occluded => return Ok(()),
-            Current::Validation => return Err("the window's surface is invalid".into()),
-        };
-        let target = frame.texture.create_view(&wgpu::TextureViewDescriptor::default());
-        let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         let view = self.view();
-        self.stage.time_s = self.start.elapsed().as_secs_f32();
-        self.renderer.prepare(&mut encoder, &mut self.stage)?;
-        self.renderer.draw(&mut encoder, &self.stage, &view, &target)?;
-        self.gpu.queue.submit([encoder.finish()]);
-        self.window.pre_present_notify();
-        self.gpu.queue.present(frame);
-        Ok(())
+        let Self { screen, renderer, stage, start, .. } = self;
+        stage.time_s = start.elapsed().as_secs_f32();
+        screen.show(|encoder, target| {
+            renderer.prepare(encoder, stage)?;
+            renderer.draw(encoder, stage, &view, target)
+        })
     }
 }
 
@@ -153,10 +119,7 @@ impl App {
         let Some(shown) = &mut self.shown else { return Ok(()) };
         match event {
             WindowEvent::CloseRequested => event_loop.exit(),
-            WindowEvent::Resized(size) => {
-                [shown.config.width, shown.config.height] = [size.width.max(1), size.height.max(1)];
-                shown.surface.configure(&shown.gpu.device, &shown.config);
-            }
+            WindowEvent::Resized(size) => shown.screen.resize(size),
             WindowEvent::DroppedFile(path) => match shown.load(&path) {
                 Ok(scene) => self.scene = scene,
                 Err(e) => eprintln!("{e}"),
@@ -188,7 +151,7 @@ impl App {
             }
             WindowEvent::RedrawRequested => {
                 shown.draw()?;
-                shown.window.request_redraw();
+                shown.screen.window.request_redraw();
             }
             _ => {}
         }

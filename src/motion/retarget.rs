@@ -233,76 +233,75 @@ impl Fit<'_> {
         bone.and_then(|b| self.lean.get(&b)).copied().unwrap_or(Quat::IDENTITY)
     }
 
-    /// Rotations of the bones that the target has. What moves in the source between two of them, bones that the target lacks or
-    /// helper nodes, goes to the one below.
+    /// Rotations of the bones that the target has.
     fn rotations(&self, clip: &mut Clip) {
         let mut lacking: Vec<String> = Vec::new();
         let is_eye = |bone: HumanBone| matches!(bone, HumanBone::LeftEye | HumanBone::RightEye);
         for (&bone, &node) in self.from.bones.iter().filter(|(bone, _)| !is_eye(**bone)) {
-            let Some(&ours) = self.to.bones.get(&bone) else {
-                if self.turns(node).is_some() {
+            match self.to.bones.get(&bone) {
+                Some(&ours) => clip.rotations.extend(self.rotation(bone, node, ours)),
+                None if self.turns(node).is_some() && !self.is_taken_over(node) => {
                     lacking.push(bone.name().to_owned());
                 }
-                continue;
-            };
-            // From this bone up to the next that the target has.
-            let mut nodes = vec![node];
-            let mut above = self.from.above(node);
-            let mut parent_bone = None;
-            while let Some(at) = above {
-                if let Some(b) = self.from.bone_of.get(&at) {
-                    if self.to.bones.contains_key(b) {
-                        parent_bone = Some(*b);
-                        break;
-                    }
-                    nodes.push(at);
-                } else if self.has_helpers() {
-                    nodes.push(at);
-                }
-                above = self.from.above(at);
+                None => {}
             }
-            let turns: Vec<(usize, Track<Quat>)> =
-                nodes.iter().rev().filter_map(|n| Some((*n, self.turns(*n)?))).collect();
-            let (above, rest) = (self.to.rotation_above(ours), self.to.rotation(ours));
-            let (before, after) = (self.lean_of(parent_bone), self.lean_of(Some(bone)));
-            let is_still = turns.is_empty();
-            if is_still && before == after {
-                continue;
-            }
-            let mut tracks: Vec<Track<Quat>> = turns
-                .into_iter()
-                .map(|(n, track)| {
-                    // From rest to rest in the axes of the character.
-                    let (p, w) = (self.from.rotation_above(n), inverse(self.from.rotation(n)));
-                    let map = |q: Quat| mul(p, mul(q, w));
-                    track.map(map, map)
-                })
-                .collect();
-            if is_still {
-                tracks.push(Track::constant(Quat::IDENTITY));
-            }
-            let outer = mul(inverse(above), inverse(before));
-            let inner = mul(after, rest);
-            if let Some(first) = tracks.first_mut() {
-                *first = first.map(|q| mul(outer, q), |q| mul(outer, q));
-            }
-            if let Some(last) = tracks.last_mut() {
-                *last = last.map(|q| mul(q, inner), |q| mul(q, inner));
-            }
-            clip.rotations.push(RotationChannel::new(ours, tracks));
         }
-        // What was taken over by the bones below is not lost.
-        lacking.retain(|name| {
-            let bone = HumanBone::from_name(name);
-            !self.to.bones.keys().any(|b| {
-                let node = self.from.bones.get(b);
-                node.is_some_and(|n| {
-                    std::iter::successors(Some(*n), |n| self.from.above(*n))
-                        .any(|n| self.from.bone_of.get(&n).copied() == bone)
-                })
-            })
-        });
         warn(clip, "bones", lacking);
+    }
+
+    /// Rotations of one bone. What moves in the source between it and the next one that the target has, bones that the target
+    /// lacks or helper nodes, goes to it.
+    fn rotation(&self, bone: HumanBone, node: usize, ours: usize) -> Option<RotationChannel> {
+        let (nodes, above) = self.down_to(node);
+        let (before, after) = (self.lean_of(above), self.lean_of(Some(bone)));
+        // From rest to rest in the axes of the character.
+        let neutral = |node: &usize| {
+            let (above, rest) = (self.from.rotation_above(*node), inverse(self.from.rotation(*node)));
+            let map = |q: Quat| mul(above, mul(q, rest));
+            Some(self.turns(*node)?.map(map, map))
+        };
+        let mut tracks: Vec<Track<Quat>> = nodes.iter().filter_map(neutral).collect();
+        if tracks.is_empty() {
+            if before == after {
+                return None;
+            }
+            tracks.push(Track::constant(Quat::IDENTITY));
+        }
+        let outer = mul(inverse(self.to.rotation_above(ours)), inverse(before));
+        let inner = mul(after, self.to.rotation(ours));
+        if let Some(first) = tracks.first_mut() {
+            *first = first.map(|q| mul(outer, q), |q| mul(outer, q));
+        }
+        if let Some(last) = tracks.last_mut() {
+            *last = last.map(|q| mul(q, inner), |q| mul(q, inner));
+        }
+        Some(RotationChannel::new(ours, tracks))
+    }
+
+    /// Nodes of the source from below the next bone that the target has down to a node; and that bone.
+    fn down_to(&self, node: usize) -> (Vec<usize>, Option<HumanBone>) {
+        let mut nodes = vec![node];
+        let mut above = self.from.above(node);
+        let mut bone_above = None;
+        while let Some(at) = above {
+            let bone = self.from.bone_of.get(&at).copied();
+            if bone.is_some_and(|b| self.to.bones.contains_key(&b)) {
+                bone_above = bone;
+                break;
+            }
+            if bone.is_some() || self.has_helpers() {
+                nodes.push(at);
+            }
+            above = self.from.above(at);
+        }
+        nodes.reverse();
+        (nodes, bone_above)
+    }
+
+    /// Whether a bone below a node of the source, which the target has, takes its rotation over.
+    fn is_taken_over(&self, node: usize) -> bool {
+        let below = self.to.bones.keys().filter_map(|bone| self.from.bones.get(bone));
+        below.into_iter().any(|n| std::iter::successors(Some(*n), |n| self.from.above(*n)).any(|n| n == node))
     }
 
     /// Movement of the hips from rest, by the height of both.
