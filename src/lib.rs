@@ -20,7 +20,8 @@
 //! ```
 //!
 //! An application with a device of its own calls [`Gpu::from_parts`], and each frame [`Renderer::prepare`] and
-//! [`Renderer::draw`].
+//! [`Renderer::draw`]. Characters move by [`motion`]: clips of any humanoid, gaze, blinking, hair that swings; [`Stage::update`] each
+//! frame.
 //!
 //! # Conventions
 //!
