@@ -51,6 +51,8 @@ pub(crate) type Angles = [f32; 2];
 
 /// How far a head turns and tilts, radians.
 const MOST_TURN: Angles = [1.2, 0.6];
+/// Turn (radians) and speed (radians a second) of a head below which it stands still.
+const STILL: f32 = 1e-5;
 /// Yaw from which on a target counts as behind, where the head stays on its side.
 const BEHIND: f32 = 2.4;
 /// Distance from the vertical through the head within which a target has no yaw, metres.
@@ -169,6 +171,10 @@ impl Gaze {
             let slope = self.speed[axis] + rate * gap;
             self.turn[axis] = goal + (gap + slope * dt.max(0.0)) * decay;
             self.speed[axis] = (self.speed[axis] - rate * slope * dt.max(0.0)) * decay;
+            // Comes to an end, instead of fading for ever.
+            if goal == 0.0 && self.turn[axis].abs() < STILL && self.speed[axis].abs() < STILL {
+                (self.turn[axis], self.speed[axis]) = (0.0, 0.0);
+            }
         }
     }
 

@@ -96,7 +96,7 @@ impl Skeleton {
             look_at: character.look_at.clone(),
             head: HeadRig::of(&bones, &parents),
             constraints: ConstraintStep::in_order(&character.constraints, &parents, &rest),
-            springs: SpringRig::of(character, &parents, &rest_places),
+            springs: SpringRig::of(character, &parents, &rest, &rest_places),
             expressions,
             bones,
             parents,

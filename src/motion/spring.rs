@@ -135,7 +135,7 @@ impl Default for Springs {
 }
 
 impl SpringRig {
-    pub fn of(character: &Character, parents: &[Option<usize>], rest: &[Place]) -> Self {
+    pub fn of(character: &Character, parents: &[Option<usize>], locals: &[Transform], rest: &[Place]) -> Self {
         let mut rig = Self { colliders: character.colliders.clone(), ..Self::default() };
         rig.colliders.iter_mut().for_each(|c| c.node = c.node.min(parents.len().saturating_sub(1)));
         let count = rig.colliders.len();
@@ -152,8 +152,7 @@ impl SpringRig {
                 let size = rest[joint.node].scale.x;
                 rig.joints.push(Joint {
                     node: joint.node,
-                    // Set from locals below.
-                    rest: Quat::IDENTITY,
+                    rest: locals[joint.node].rotation,
                     axis: direction(to_next).unwrap_or(Vec3::Y),
                     length: length(to_next) * size,
                     hit_radius: joint.hit_radius,
@@ -169,7 +168,6 @@ impl SpringRig {
         // Parents stand before their children, so the order of nodes is one from roots to tips.
         rig.joints.sort_by_key(|joint| joint.node);
         rig.joints.dedup_by_key(|joint| joint.node);
-        rig.joints.iter_mut().for_each(|j| j.rest = local_rotation(parents, rest, j.node));
         rig.involve(parents);
         rig
     }
@@ -217,11 +215,6 @@ impl SpringRig {
     pub fn is_empty(&self) -> bool {
         self.joints.is_empty()
     }
-}
-
-fn local_rotation(parents: &[Option<usize>], rest: &[Place], node: usize) -> Quat {
-    let above = parents[node].map_or(Quat::IDENTITY, |p| rest[p].rotation);
-    mul(inverse(above), rest[node].rotation)
 }
 
 impl Springs {

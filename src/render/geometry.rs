@@ -350,6 +350,7 @@ struct Prepared<'a> {
     /// Places in eyes.
     eyes: Option<&'a [EyeVertex]>,
 }
+
 /// Spheres round eyes and hair, as far as those are seen through this.
 fn eyes_and_hair(scene: &Scene, parts: &[Part]) -> Option<[(Vec3, f32); 2]> {
     scene.eyes_through?;
