@@ -9,7 +9,7 @@ use glam::{Mat4, Quat, Vec3};
 use hikage::material::{Base, Material, Outline, OutlineWidth, Shading, Toon};
 use hikage::motion::{Blink, Clip, GazeTarget, Play, RootMotion, SPRING_STEP_S};
 use hikage::scene::{Antialias, Camera, HumanBone, Mesh, Node, Primitive, Role, Scene};
-use hikage::{Actor, Background, Character, Grid, Ground, Look, Renderer, Stage, View, color::Srgb, import};
+use hikage::{Actor, Anime, Background, Character, Grid, Ground, Look, Renderer, Stage, View, color::Srgb, import};
 use winit::application::ApplicationHandler;
 use winit::event::{ElementState, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, EventLoop};
@@ -47,7 +47,7 @@ impl Cast {
             Some(path) => import::load(path)?,
             None => import::load_bytes("hikage.vrm", &hikage_character::file(), None, &limits)?,
         };
-        Look::Anime { face: None }.apply(&mut scene);
+        Look::Anime(Anime::default()).apply(&mut scene);
         for material in scene.materials.iter_mut().filter(|m| m.name.starts_with("Hair") && model.is_none()) {
             (0..3).for_each(|i| material.base.color[i] *= hair[i]);
             if let Shading::Toon(toon) = &mut material.shading {

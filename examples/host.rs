@@ -7,7 +7,7 @@ use hikage::motion::{Pose, Stance};
 use hikage::scene::HumanBone;
 use hikage::wgpu;
 use hikage::{
-    Actor, Error, Far, Gpu, HostDepth, Look, Output, Renderer, Stage, Target, View, import, picture, scene::Framing,
+    Anime,    Actor, Error, Far, Gpu, HostDepth, Look, Output, Renderer, Stage, Target, View, import, picture, scene::Framing,
 };
 
 const SIZE: [u32; 2] = [960, 540];
@@ -38,7 +38,7 @@ fn main() -> Result<(), Error> {
     let output = Output { format: FORMAT, samples: SAMPLES, depth: Some(HostDepth { format: DEPTH, far: Far::Zero }) };
     let renderer = Renderer::with_output(&gpu, output)?;
     let mut scene = import::load_bytes("hikage.vrm", &hikage_character::file(), None, &import::Limits::default())?;
-    Look::Anime { face: None }.apply(&mut scene);
+    Look::Anime(Anime::default()).apply(&mut scene);
     scene.post = None;
     let girl = renderer.upload_and_empty_images(&mut scene)?;
     let mut relaxed = Pose::rest(girl.scene());

@@ -6,7 +6,7 @@
 
 use hikage::material::{Section, TextureRef, register};
 use hikage::scene::Framing;
-use hikage::{Actor, Channel, Error, Gpu, Look, Renderer, Stage, View, import, picture};
+use hikage::{Actor, Anime, Channel, Error, Gpu, Look, Renderer, Stage, View, import, picture};
 
 hikage::section! {
     /// Ice that grows from below.
@@ -41,7 +41,7 @@ fn main() -> Result<(), Error> {
         Some(model) => import::load(model)?,
         None => import::load_bytes("hikage.vrm", &hikage_character::file(), None, &import::Limits::default())?,
     };
-    Look::Anime { face: None }.apply(&mut scene);
+    Look::Anime(Anime::default()).apply(&mut scene);
     for material in &mut scene.materials {
         material.set_own(Some(Frost::default()));
     }

@@ -3,7 +3,7 @@
 //! `cargo run --release --example stage [MODEL.vrm [MODEL.vrm]]`
 
 use hikage::motion::{Pose, Stance};
-use hikage::{Actor, Error, Gpu, Grid, Ground, Look, Renderer, Stage, View, import, picture, scene::Framing};
+use hikage::{Actor, Anime, Error, Gpu, Grid, Ground, Look, Renderer, Stage, View, import, picture, scene::Framing};
 
 fn main() -> Result<(), Error> {
     let gpu = Gpu::headless(None)?;
@@ -11,13 +11,13 @@ fn main() -> Result<(), Error> {
     let mut characters = Vec::new();
     for model in std::env::args().skip(1) {
         let mut scene = import::load(model)?;
-        Look::Anime { face: None }.apply(&mut scene);
+        Look::Anime(Anime::default()).apply(&mut scene);
         characters.push(renderer.upload_and_empty_images(&mut scene)?);
     }
     if characters.is_empty() {
         let file = hikage_character::file();
         let mut scene = import::load_bytes("hikage.vrm", &file, None, &import::Limits::default())?;
-        Look::Anime { face: None }.apply(&mut scene);
+        Look::Anime(Anime::default()).apply(&mut scene);
         characters.push(renderer.upload_and_empty_images(&mut scene)?);
     }
     // Of one character, the second actor shares everything with the first one but its pose.

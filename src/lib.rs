@@ -53,7 +53,7 @@ mod stage;
 pub use error::{Error, Result};
 pub use glam;
 pub use gpu::{AdapterInfo, Gpu};
-pub use look::{Look, LookFile, ProfileFile};
+pub use look::{Anime, BandStyle, Look, LookFile, ProfileFile};
 pub use render::{Background, Channel, Character, Far, GpuMemory, HostDepth, Output, Renderer, Target, View, shaders};
 pub use stage::{Actor, Grid, Ground, Stage, StageShadow};
 pub use wgpu;

@@ -4,25 +4,28 @@ use std::collections::BTreeSet;
 
 use glam::Vec3;
 
-use super::hair_band;
+use super::{Anime, hair_band, shade};
+use crate::color::LinearRgb;
 use crate::material::{
     AlphaMode, Authored, BangsShadow, CastShadow, DepthRim, Diamond, FacePaint, FaceShadow, Fire, Fluff, FurDetail,
     Gem, Glow, Highlight, Layer, Material, Outline, OutlineTint, OutlineWidth, RampMaps, ShadeRamp, Shading,
     ShapedHighlight, Sparkle, Stocking, Substance, Transition,
 };
-use crate::scene::{Bangs, Bloom, EyesThrough, Post, Role, Scene, SelfShadow};
-use crate::sdf::{FaceMap, Sides, face_map};
+use crate::scene::{Bangs, Bloom, EyesThrough, Post, Role, Scene, SelfShadow, Warning};
+use crate::sdf::{FaceMap, FaceStyle, Feature, Guide, Sides};
 
 /// Materials that get a face's shadow: characters have one to three, and a file of thousands must not fill the memory.
 const MOST_FACES: usize = 16;
 
-pub(super) fn apply(scene: &mut Scene, painted: Option<&Sides>) {
+pub(super) fn apply(scene: &mut Scene, look: &Anime) {
+    let before: Vec<[f32; 3]> = scene.materials.iter().map(shade_factor).collect();
+    shade::apply(scene);
     scene.bangs = Some(Bangs::default());
     scene.eyes_through = Some(EyesThrough::default());
     outlines(scene);
     round_hair(scene);
-    hair(scene);
-    faces(scene, painted);
+    hair(scene, look);
+    faces(scene, look, &before);
     body_rims(scene);
     self_shadow(scene);
     eyes(scene);
@@ -116,7 +119,7 @@ fn round_hair(scene: &mut Scene) {
 }
 
 /// A band that follows view and light: painted, where the file carries one, else round the head.
-fn hair(scene: &mut Scene) {
+fn hair(scene: &mut Scene, look: &Anime) {
     let mut bare = BTreeSet::new();
     for role in [Role::HairFront, Role::Hair] {
         for index in materials_of(scene, role) {
@@ -136,7 +139,7 @@ fn hair(scene: &mut Scene) {
             }
         }
     }
-    hair_band::add(scene, &bare);
+    hair_band::add(scene, &bare, look.band);
 }
 
 /// A lock before the hair of the back is no contour, and neither is an arm before the chest.
@@ -161,11 +164,15 @@ fn body_rims(scene: &mut Scene) {
     }
 }
 
-fn faces(scene: &mut Scene, painted: Option<&Sides>) {
+fn faces(scene: &mut Scene, look: &Anime, before: &[[f32; 3]]) {
     for index in materials_of(scene, Role::Face).into_iter().take(MOST_FACES) {
-        let map = face_map(scene, index).map(|mesh| match painted {
-            Some(painted) => over(painted, &mesh),
-            None => mesh,
+        let guide = match look.face {
+            Some(_) => Guide::new(scene, index, look.face_style),
+            None => safe_guide(scene, index, look.face_style, before),
+        };
+        let map = guide.and_then(|guide| match &look.face {
+            Some(painted) => Some(over(painted, &guide.over_texture(scene, index)?)),
+            None => unwrapped(scene, index, &guide),
         });
         let shade = shade_factor(&scene.materials[index]);
         let material = &mut scene.materials[index];
@@ -307,6 +314,80 @@ fn shade_factor(material: &Material) -> [f32; 3] {
         }
         _ => BangsShadow::default().color,
     }
+}
+
+/// Front of a face that may be lit otherwise than by its file under light from the front.
+const MOST_CHANGED: f32 = 0.4;
+
+/// The shadow made from a face's mesh, where it keeps what the face is read by: else the file's own shading is left there, and a
+/// warning says so.
+fn safe_guide(scene: &mut Scene, index: usize, style: FaceStyle, before: &[[f32; 3]]) -> Option<Guide> {
+    let mut guide = Guide::new(scene, index, style)?;
+    let material = &scene.materials[index];
+    let Shading::Toon(toon) = material.shading else { return Some(guide) };
+    let luminance = |factor: [f32; 3]| LinearRgb(factor).luminance();
+    let shades = [before.get(index).copied().unwrap_or([1.0; 3]), shade_factor(material)].map(luminance);
+    let pointer = format!("/materials/{index}");
+    let changed = guide.changed(&toon);
+    if changed > MOST_CHANGED {
+        let message = format!(
+            "face shadow left to the file: the map from the mesh would change {:.0} % of the face under light from the front",
+            changed * 100.0
+        );
+        scene.warnings.push(Warning { pointer, message });
+        return None;
+    }
+    for found in guide.contrasts(&toon, shades).into_iter().filter(|c| !c.is_kept()) {
+        // As little as serves.
+        for share in [0.25, 0.5, 0.75, 1.0] {
+            guide.leave(found.feature, share);
+            let now = guide.contrasts(&toon, shades);
+            if now.iter().all(|c| c.feature != found.feature || c.is_kept()) {
+                break;
+            }
+        }
+        let name = match found.feature {
+            Feature::Nose => "nose",
+            Feature::Mouth => "mouth",
+        };
+        let message = format!(
+            "{name} left to the file's shading: its contrast fell from {:.3} to {:.3} under light from {:.0} degrees",
+            found.before, found.after, found.yaw_deg
+        );
+        scene.warnings.push(Warning { pointer: pointer.clone(), message });
+    }
+    Some(guide)
+}
+
+/// The map of a face on coordinates of its own, which do not share or mirror what its texture does; over the texture where the
+/// parts of the material have a second set already.
+fn unwrapped(scene: &mut Scene, material: usize, guide: &Guide) -> Option<FaceMap> {
+    let mut parts = scene.meshes.iter().flat_map(|m| &m.primitives).filter(|p| p.material == material);
+    if parts.any(|p| p.uvs.len() > 1) {
+        return guide.over_texture(scene, material);
+    }
+    let world = scene.rest_world_from_nodes();
+    for node in 0..scene.nodes.len() {
+        let matrix = scene.rest_placement(&world, node);
+        let Some(mesh) = scene.nodes[node].mesh.and_then(|m| scene.meshes.get_mut(m)) else { continue };
+        for part in mesh.primitives.iter_mut().filter(|p| p.material == material && p.uvs.len() < 2) {
+            let is_face = part.role == Role::Face;
+            let place = |p: &[f32; 3]| {
+                if is_face {
+                    guide.unwrap(matrix.transform_point3(Vec3::from(*p)))
+                } else {
+                    // A corner, where all is left to normals.
+                    [0.0, -1.0]
+                }
+            };
+            let set = part.positions.iter().map(place).collect();
+            if part.uvs.is_empty() {
+                part.uvs.push(vec![[0.0; 2]; part.positions.len()]);
+            }
+            part.uvs.push(set);
+        }
+    }
+    Some(guide.over_relief())
 }
 
 /// The painted thresholds, with the regions of the map from the mesh.

@@ -1,74 +1,148 @@
-//! A band of light round the hair of any character: texture coordinates by the direction from the head, and a painted band
-//! to lay over them.
+//! A band of light round the hair of any character: which lock lies where, what colour light has on it, and texture
+//! coordinates to lay the painted marks over.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::f32::consts::PI;
 
-use glam::Vec3;
+use glam::{Mat4, Vec3};
 
+use super::band_marks::{CELLS, LEVELS, RING_CELLS, VARIANTS, paint};
+use super::tone::Tone;
+use super::BandStyle;
 use crate::material::{Highlight, TextureRef};
-use crate::scene::{Filter, Image, Sampler, Scene, Texture, Wrap};
+use crate::scene::painted::Painted;
+use crate::scene::{Filter, Primitive, Sampler, Scene, Texture, Wrap};
 
-/// Size of the painted band, texels: round half the head, and from pole to pole.
-const SIZE: [u32; 2] = [1024, 512];
-/// Middle of the band, v: 0 over the head, 1/2 at its middle. Light and view from the front move it up from there.
-const MIDDLE: f32 = 0.33;
-/// How much the normals of locks bend the band, so that each has an arc of its own.
-const OF_NORMAL: f32 = 0.3;
+/// Angle from above of the band's middle, radians; light and view from the front move it up from there.
+const MIDDLE: f32 = 1.05;
+/// Angle over which the marks' picture reaches from its upper to its lower edge, radians.
+const REACH: f32 = 2.1;
+/// Widest lock that has one mark, radians round the head; what is wider is a cap of many.
+const WIDEST: f32 = 0.9;
+/// Angle from the front from which marks fade, and at which they have gone, radians: over the temples.
+const FADES: [f32; 2] = [0.85, 1.75];
+/// Share of the head's height that a piece of hair must be long: what is smaller ties it.
+const LEAST_LOCK: f32 = 0.12;
+/// Fewest triangles of hair that is smooth enough for a mark.
+const LEAST_TRIANGLES: usize = 400;
 
-/// Gives these hair materials a band. Parts that already use two sets of texture coordinates are left out.
-pub(super) fn add(scene: &mut Scene, materials: &BTreeSet<usize>) {
+/// What lies where.
+#[derive(Clone, Copy)]
+struct Place {
+    /// Angle from the front, to the character's left, and angle from above, radians.
+    around: f32,
+    from_above: f32,
+    /// Distance from the middle of the skull, metres.
+    distance: f32,
+}
+
+/// Gives these hair materials a band. Parts that already use two sets of texture coordinates, and hair of a few facets, are
+/// left out.
+pub(super) fn add(scene: &mut Scene, materials: &BTreeSet<usize>, style: BandStyle) {
     let Some((low, high)) = scene.face_box(None) else { return };
     // A little behind and above the middle of the face lies that of the skull.
     let size = high - low;
     let middle = (low + high) * 0.5 + Vec3::new(0.0, 0.1, 0.0) * size.y;
-    let parts = scene.meshes.iter().flat_map(|m| &m.primitives);
-    let taken: BTreeSet<usize> = parts.filter(|p| p.uvs.len() > 1).map(|p| p.material).collect();
-    let wrapped = wrap(scene, &(materials - &taken), middle);
+    let parts = || scene.meshes.iter().flat_map(|m| &m.primitives);
+    let mut fit = materials.clone();
+    for index in materials {
+        let of = || parts().filter(|p| p.material == *index);
+        let triangles: usize = of().map(|p| p.indices.len() / 3).sum();
+        if triangles < LEAST_TRIANGLES || of().any(|p| p.uvs.len() > 1) {
+            fit.remove(index);
+        }
+    }
+    let tones: BTreeMap<usize, Light> = fit.iter().map(|index| (*index, light(scene, *index))).collect();
+    let wrapped = wrap(scene, &fit, middle, size.y, style);
     if wrapped.is_empty() {
         return;
     }
-    scene.images.push(paint());
+    scene.images.push(paint(style));
     let clamp = Wrap::Clamp;
     let sampler =
         Sampler { wrap_u: clamp, wrap_v: clamp, mag: Filter::Linear, min: Filter::Linear, mip: Some(Filter::Nearest) };
     scene.textures.push(Texture { image: scene.images.len() - 1, sampler });
     let map = TextureRef { texture: scene.textures.len() - 1, uv_set: 1, ..TextureRef::default() };
     for material in wrapped {
-        let base = scene.materials[material].base.color;
-        // The thin line below is of a paler tone of the hair.
-        let tone = |c: f32| 0.45 + 0.55 * c.clamp(0.0, 1.0);
+        let Some(Light { color, strength }) = tones.get(&material).copied() else { continue };
         scene.materials[material].highlight = Some(Highlight {
             map,
-            color: [1.0, 0.98, 0.97],
-            strength: 0.5,
-            second_color: [tone(base[0]), tone(base[1]), tone(base[2])],
-            second_strength: 0.3,
-            second_motion: 1.0,
-            light_v: 0.03,
-            view_v: 0.03,
+            color,
+            strength,
+            light_v: 0.045,
+            view_v: 0.045,
+            in_shade: 0.04,
             ..Highlight::default()
         });
     }
 }
 
-/// Adds the coordinates as the second set: u is the angle from the front over π, alike on both sides so that no seam runs
-/// down the back, v that from above. Gives the materials that have them.
-fn wrap(scene: &mut Scene, materials: &BTreeSet<usize>, middle: Vec3) -> BTreeSet<usize> {
+/// What light makes of a material's hair.
+#[derive(Clone, Copy)]
+struct Light {
+    color: [f32; 3],
+    strength: f32,
+}
+
+/// A lighter, less saturated tone of the hair; on black hair a blue sheen, on white hair a faint one, and little where the
+/// file paints one itself.
+fn light(scene: &Scene, material: usize) -> Light {
+    let painted = Painted::new(scene, &scene.materials[material]);
+    let parts = scene.meshes.iter().flat_map(|m| &m.primitives).filter(|p| p.material == material);
+    let mut colors: Vec<([f32; 3], f32)> = parts.flat_map(|p| painted.of_triangles(p).collect::<Vec<_>>()).collect();
+    let area: f32 = colors.iter().map(|(_, a)| a).sum();
+    if !(area > 0.0) {
+        return Light { color: [1.0; 3], strength: 0.0 };
+    }
+    let mean = colors.iter().fold(Vec3::ZERO, |sum, (c, a)| sum + Vec3::from(*c) * (*a / area));
+    let hair = Tone::of(mean.to_array());
+    // A gloss that is painted stands out from most of the hair.
+    colors.sort_by(|(a, _), (b, _)| Tone::of(*a).lightness.total_cmp(&Tone::of(*b).lightness));
+    let at = |share: f32| {
+        let mut left = area * share;
+        let found = colors.iter().find(|(_, a)| {
+            left -= a;
+            left <= 0.0
+        });
+        found.map_or(0.0, |(c, _)| Tone::of(*c).lightness)
+    };
+    let spread = at(0.95) - at(0.5);
+    let is_painted = spread > 0.12;
+    let dark = smooth(0.42, 0.22, hair.lightness);
+    let pale = smooth(0.78, 0.95, hair.lightness);
+    let colored = Tone {
+        lightness: (hair.lightness + 0.17).min(0.985),
+        chroma: hair.chroma * 0.72,
+        ..hair.towards(1.6, 0.12)
+    };
+    let sheen = Tone { lightness: hair.lightness + 0.17, chroma: 0.045, hue_rad: -1.5 };
+    let mix = |a: [f32; 3], b: [f32; 3], t: f32| std::array::from_fn(|c| a[c] + (b[c] - a[c]) * t);
+    let color = mix(colored.to_linear(), sheen.to_linear(), dark);
+    let strength = (0.92 - 0.3 * pale) * if is_painted { 0.3 } else { 1.0 };
+    Light { color, strength }
+}
+
+/// Adds the coordinates as the second set. Gives the materials that have them.
+fn wrap(
+    scene: &mut Scene, materials: &BTreeSet<usize>, middle: Vec3, height: f32, style: BandStyle,
+) -> BTreeSet<usize> {
     let mut done = BTreeSet::new();
     scene.for_each_hair(|part, matrix| {
         if !materials.contains(&part.material) {
             return;
         }
-        let at = |(position, normal): (&[f32; 3], &[f32; 3])| {
-            let out = (matrix.transform_point3(Vec3::from(*position)) - middle).normalize_or(Vec3::Y);
-            let normal = matrix.transform_vector3(Vec3::from(*normal)).normalize_or(out);
-            let bent = out.lerp(normal, OF_NORMAL).normalize_or(out);
-            [out.x.abs().atan2(out.z) / PI, bent.y.clamp(-1.0, 1.0).acos() / PI]
-        };
-        let set: Vec<[f32; 2]> = part.positions.iter().zip(&part.normals).map(at).collect();
+        let places: Vec<Place> = part.positions.iter().map(|p| place(*p, matrix, middle)).collect();
+        let locks = locks(part);
+        let count = locks.iter().max().map_or(0, |n| n + 1);
+        let mut members = vec![Vec::new(); count];
+        for (vertex, lock) in locks.iter().enumerate() {
+            members[*lock].push(vertex);
+        }
+        let cells: Vec<Cell> =
+            members.iter().enumerate().map(|(n, m)| cell(part, &places, m, n, height, style)).collect();
+        let set = places.iter().zip(&locks).map(|(at, lock)| cells[*lock].uv(*at)).collect();
         if part.uvs.is_empty() {
-            part.uvs.push(vec![[0.0; 2]; set.len()]);
+            part.uvs.push(vec![[0.0; 2]; places.len()]);
         }
         part.uvs.push(set);
         done.insert(part.material);
@@ -76,45 +150,120 @@ fn wrap(scene: &mut Scene, materials: &BTreeSet<usize>, middle: Vec3) -> BTreeSe
     done
 }
 
-/// Smooth noise of one number, 0..1.
-fn noise(x: f32, seed: u32) -> f32 {
-    let hash = |i: i32| {
-        let mut h = (i as u32).wrapping_mul(0x9e37_79b1) ^ seed.wrapping_mul(0x85eb_ca6b);
-        h = (h ^ (h >> 15)).wrapping_mul(0x2c1b_3c6d);
-        h = (h ^ (h >> 12)).wrapping_mul(0x297a_2d39);
-        (h ^ (h >> 15)) as f32 / u32::MAX as f32
-    };
-    let (cell, t) = (x.floor(), x.fract());
-    let t = t * t * (3.0 - 2.0 * t);
-    hash(cell as i32) * (1.0 - t) + hash(cell as i32 + 1) * t
+fn place(position: [f32; 3], matrix: Mat4, middle: Vec3) -> Place {
+    let out = matrix.transform_point3(Vec3::from(position)) - middle;
+    let direction = out.normalize_or(Vec3::Y);
+    Place {
+        around: direction.x.atan2(direction.z),
+        from_above: direction.y.clamp(-1.0, 1.0).acos(),
+        distance: out.length(),
+    }
 }
 
-/// Red: a band, jagged below as brushes leave it. Green: a thin broken line under it.
-fn paint() -> Image {
-    let [width, height] = SIZE;
-    let smooth = |from: f32, to: f32, x: f32| {
-        let t = ((x - from) / (to - from)).clamp(0.0, 1.0);
-        t * t * (3.0 - 2.0 * t)
+/// Number of the piece of mesh that each vertex belongs to: pieces hang together by triangles, and where places agree.
+fn locks(part: &Primitive) -> Vec<usize> {
+    let mut parent: Vec<usize> = (0..part.positions.len()).collect();
+    fn root(parent: &mut [usize], mut i: usize) -> usize {
+        while parent[i] != i {
+            parent[i] = parent[parent[i]];
+            i = parent[i];
+        }
+        i
+    }
+    let mut join = |a: usize, b: usize| {
+        let (a, b) = (root(&mut parent, a), root(&mut parent, b));
+        parent[a.max(b)] = a.min(b);
     };
-    let mut pixels = Vec::with_capacity((width * height * 4) as usize);
-    for y in 0..height {
-        let v = (y as f32 + 0.5) / height as f32;
-        for x in 0..width {
-            let u = (x as f32 + 0.5) / width as f32;
-            // Brushes run out in points of uneven length.
-            let spike = noise(u * 90.0, 2).powi(2);
-            let wave = noise(u * 14.0, 1) - 0.5;
-            let top = MIDDLE - 0.012 + 0.012 * wave - 0.01 * noise(u * 70.0, 5);
-            let bottom = MIDDLE + 0.004 + 0.012 * wave + 0.03 * spike;
-            let band = smooth(top - 0.003, top + 0.003, v) * smooth(bottom + 0.006, bottom - 0.004, v);
-            let middle = MIDDLE + 0.042 + 0.014 * wave + 0.012 * spike;
-            let thin = 0.002 + 0.006 * noise(u * 40.0, 6);
-            let below = smooth(thin + 0.004, thin, (v - middle).abs()) * smooth(0.3, 0.55, noise(u * 34.0, 7));
-            // Strands between which no light lies.
-            let strand = smooth(0.12, 0.3, 0.6 * noise(u * 150.0, 3) + 0.4 * noise(u * 330.0, 4));
-            let code = |c: f32| (c.clamp(0.0, 1.0) * 255.0).round() as u8;
-            pixels.extend([code(band * strand), code(below * strand), 0, 255]);
+    let mut order: Vec<usize> = (0..part.positions.len()).collect();
+    let bits = |v: usize| part.positions[v].map(f32::to_bits);
+    order.sort_unstable_by_key(|v| bits(*v));
+    order.windows(2).filter(|pair| bits(pair[0]) == bits(pair[1])).for_each(|pair| join(pair[0], pair[1]));
+    for t in part.indices.chunks_exact(3) {
+        join(t[0] as usize, t[1] as usize);
+        join(t[1] as usize, t[2] as usize);
+    }
+    let mut numbers = BTreeMap::new();
+    (0..part.positions.len())
+        .map(|v| {
+            let count = numbers.len();
+            *numbers.entry(root(&mut parent, v)).or_insert(count)
+        })
+        .collect()
+}
+
+/// Where on the marks' picture a lock lies.
+#[derive(Clone, Copy)]
+enum Cell {
+    /// Nowhere.
+    Blank,
+    /// On a mark of its own, across it from one angle round the head to another.
+    Mark { first: f32, middle: f32, low: f32, high: f32 },
+    /// On the ring, for what covers more of the head than a lock.
+    Ring,
+}
+
+impl Cell {
+    fn uv(self, at: Place) -> [f32; 2] {
+        let v = 0.5 + (at.from_above - MIDDLE) / REACH;
+        match self {
+            Self::Blank => [0.5, 1.0],
+            // Alike on both sides, so that no seam runs down the back.
+            Self::Ring => [at.around.abs() / PI * RING_CELLS as f32 / CELLS as f32, v],
+            Self::Mark { first, middle, low, high } => {
+                let across = (turn(at.around - middle) - low) / (high - low);
+                [(first + across.clamp(-0.1, 1.1) * 0.8 + 0.1) / CELLS as f32, v]
+            }
         }
     }
-    Image { name: "hair band".to_owned(), width, height, pixels, source_bits: 8, ..Image::default() }
+}
+
+/// An angle within half a turn of 0.
+fn turn(angle: f32) -> f32 {
+    (angle + PI).rem_euclid(2.0 * PI) - PI
+}
+
+fn smooth(from: f32, to: f32, x: f32) -> f32 {
+    let t = ((x - from) / (to - from)).clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
+}
+
+/// The cell of one lock.
+fn cell(part: &Primitive, places: &[Place], lock: &[usize], number: usize, height: f32, style: BandStyle) -> Cell {
+    // The band lies above its middle, as seen from the front.
+    let crosses = |v: &&usize| (MIDDLE - 0.75..MIDDLE + 0.45).contains(&places[**v].from_above);
+    let near: Vec<usize> = lock.iter().filter(crosses).copied().collect();
+    let (low, high) = lock.iter().fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), v| {
+        let p = Vec3::from(part.positions[*v]);
+        (low.min(p), high.max(p))
+    });
+    if near.is_empty() || (high - low).max_element() < LEAST_LOCK * height {
+        return Cell::Blank;
+    }
+    // What hangs far from the skull is a tail.
+    let distance = near.iter().map(|v| places[*v].distance).sum::<f32>() / near.len() as f32;
+    if distance > 1.1 * height {
+        return Cell::Blank;
+    }
+    let direction = near.iter().fold(Vec3::ZERO, |sum, v| {
+        let (sin, cos) = places[*v].around.sin_cos();
+        sum + Vec3::new(sin, 0.0, cos)
+    });
+    let middle = direction.x.atan2(direction.z);
+    let mut across: Vec<f32> = near.iter().map(|v| turn(places[*v].around - middle)).collect();
+    across.sort_by(f32::total_cmp);
+    let at = |share: f32| across[((across.len() - 1) as f32 * share) as usize];
+    let (low, high) = (at(0.04), at(0.96));
+    if high - low > WIDEST || style == BandStyle::Ring {
+        return Cell::Ring;
+    }
+    let left = smooth(FADES[1], FADES[0], middle.abs());
+    let level = (left * LEVELS as f32).round() as usize;
+    // Narrow ones have fewer points.
+    let wide = usize::from(high - low > 0.28);
+    if level == 0 || high - low < 0.02 {
+        return Cell::Blank;
+    }
+    let variant = wide * VARIANTS / 2 + number % (VARIANTS / 2);
+    let first = (RING_CELLS + (level - 1) * VARIANTS + variant) as f32;
+    Cell::Mark { first, middle, low, high }
 }

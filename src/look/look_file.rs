@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use toml::{Table, Value};
 
 use super::{
-    Look, ProfileFile,
+    Anime, BandStyle, Look, ProfileFile,
     anime::materials_of,
     presets,
     values::{merge, nearest, no_such, not_finite, units},
@@ -16,7 +16,7 @@ use crate::color::LinearRgb;
 use crate::import::{Limits, image, load_radiance};
 use crate::material::{About, AlphaMode, Field, Kind, Material, Part, Read, all, out_of_range, registered};
 use crate::scene::{Ambient, DirectionalLight, Environment, Image, Lights, Role, Sampler, Scene, Texture, Wrap};
-use crate::sdf::{FaceLayout, FaceMap, Texels};
+use crate::sdf::{FaceLayout, FaceMap, FaceStyle, Texels};
 use crate::skin::DiffusionProfile;
 use crate::{Error, Result};
 
@@ -27,6 +27,10 @@ const MAX_BYTES: u64 = 1 << 20;
 ///
 /// ```toml
 /// base = "anime"                      # what it starts from: anime (default), natural or plain
+///
+/// [anime]                             # styles of that base
+/// face = "classic"                    # soft, classic (a wedge along the nose) or minimal
+/// band = "ring"                       # on hair: broken (a mark on each lock), ring or w
 ///
 /// [parts]                             # roles that were guessed wrong, by the name of a mesh or a material
 /// Hair_mae = "hair-front"
@@ -83,6 +87,7 @@ pub struct LookFile {
 #[serde(default, deny_unknown_fields)]
 struct Document {
     base: BaseName,
+    anime: Option<Value>,
     parts: BTreeMap<String, Role>,
     light: Option<Value>,
     bangs: Option<Value>,
@@ -130,6 +135,17 @@ crate::part! {
         turn_rad: f32 = 0.0, in -6.3..=6.3;
         /// What its light is multiplied by.
         strength: f32 = 1.0, in 0.0..=1000.0;
+    }
+}
+
+crate::part! {
+    /// Styles of the anime look.
+    #[derive(Copy)]
+    AnimeSection {
+        /// Of shadows of faces that are made from a mesh.
+        face: FaceStyle = FaceStyle::Soft;
+        /// Of bands of light on hair.
+        band: BandStyle = BandStyle::Broken;
     }
 }
 
@@ -198,7 +214,7 @@ impl LookFile {
         match self.document.base {
             BaseName::Plain => Look::Plain,
             BaseName::Natural => Look::Natural,
-            BaseName::Anime => Look::Anime { face: face.cloned() },
+            BaseName::Anime => Look::Anime(Anime { face: face.cloned(), ..self.anime()? }),
         }
         .apply(scene);
         if self.document.light.is_some() {
@@ -230,6 +246,14 @@ impl LookFile {
             }
         }
         Ok(())
+    }
+
+    /// The styles of the anime look that the file asks for.
+    fn anime(&self) -> Result<Anime> {
+        let Some(AnimeSection { face, band }) = self.section("anime", self.document.anime.as_ref(), None)? else {
+            return Ok(Anime::default());
+        };
+        Ok(Anime { face: None, face_style: face, band })
     }
 
     /// The anime look of a scene that has it as a look file, for artists to start from: every number of every section that

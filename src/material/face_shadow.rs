@@ -18,9 +18,14 @@ crate::section! {
             "face-shadow",
             "Share of light by a face's threshold map; dark grey times the light of everything else.",
         )),
+        more_channels: &[(
+            "face-map",
+            "Threshold map of a face: for light from its right in red, from its left in green; blue where normals shade.",
+        )],
     }
     {
-        /// Index in [`Scene::face_maps`](crate::scene::Scene::face_maps); laid over UV set 0.
+        /// Index in [`Scene::face_maps`](crate::scene::Scene::face_maps); laid over the set of texture coordinates that
+        /// it names.
         map: usize = 0, read FACE;
         /// Measure of the thresholds.
         angle: AngleMapping = AngleMapping::Linear;
@@ -62,6 +67,7 @@ impl Section for FaceShadow {
 
     fn options(&self, on: &mut Options, of: &Surroundings<'_>) {
         let Some(map) = self.map_in(of) else { return };
+        on.set("face_relief", map.uv_set == 1);
         on.set("face_stack", map.pitches_rad.len() > 1);
         on.set("face_back", !map.back.is_empty());
         on.set("face_masks", !map.masks.is_empty());

@@ -13,6 +13,7 @@ mod first_person;
 mod head;
 mod light;
 mod mesh;
+pub(crate) mod painted;
 mod post;
 mod pupils;
 mod role;

@@ -15,6 +15,8 @@ pub const MAX_PITCHES: usize = 4;
 pub struct FaceMap {
     /// Where it came from.
     pub name: String,
+    /// Set of texture coordinates that it lies over: 0 or 1.
+    pub uv_set: u32,
     /// Width, texels.
     pub width: u32,
     /// Height, texels.

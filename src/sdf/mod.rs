@@ -1,7 +1,7 @@
 //! Threshold maps of painted face shadows: drawings in, one number a texel out. Needs no GPU.
 //!
 //! An artist draws the lit part of a face at a few angles of the light, as pictures ([`MaskFile`]) or vector shapes
-//! ([`Drawing`]); [`face_map`] makes a start from the mesh. [`bake`] finds for each texel the angle at which it turns dark,
+//! ([`Drawing`]); [`Guide`] makes a start from the mesh. [`bake`] finds for each texel the angle at which it turns dark,
 //! by the exact distances to the borders of the two keys round it, so that the border of light and shade glides from one
 //! drawing to the next. [`Profile`] says what a shader measures the angle in, [`Layout`] which channel holds what;
 //! [`check`](check()) names what will look wrong. A [`Project`] (`face.sdf.toml`) holds all of it, a [`Session`] bakes one
@@ -42,7 +42,7 @@ pub use check::{Remark, check};
 pub use columns::MAX_SIDE;
 pub use distance::{NEVER, distance_squared};
 pub use face_map::{FaceLayout, FaceMap, MAX_PITCHES, Texels};
-pub use guide::{face_map, wireframe};
+pub use guide::{Contrast, FaceStyle, Feature, Guide, KEPT, Landmarks, wireframe};
 pub use layout::{ChannelSource, Layout, Sides};
 pub use mask::{LIT, Mask};
 pub use profile::Profile;

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use hikage::scene::Framing;
-use hikage::{Gpu, Look, Renderer, import};
+use hikage::{Anime, Gpu, Look, Renderer, import};
 
 use crate::support::{Shoot, Shot, anime_heroine, gpu, render, staged};
 
@@ -63,7 +63,7 @@ fn every_shared_model_in_the_anime_look_fits_the_default_limits() {
             continue;
         }
         let mut scene = import::load(&path).expect("a model");
-        Look::Anime { face: None }.apply(&mut scene);
+        Look::Anime(Anime::default()).apply(&mut scene);
         renderer.upload_and_empty_images(&mut scene).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
         count += 1;
     }

@@ -169,7 +169,7 @@ fn pupils_follow_the_expressions_of_the_character() {
 #[test]
 fn a_template_comes_back() {
     let (mut scene, mut before) = (heroine(), heroine());
-    hikage::Look::Anime { face: None }.apply(&mut before);
+    hikage::Look::Anime(hikage::Anime::default()).apply(&mut before);
     let text = LookFile::template(&before);
     assert!(text.contains("[role.face.face_shadow]") && text.contains("[material.HairBack.highlight]"), "{text}");
     apply(&text, &mut scene).expect("a template is a good look");

@@ -74,7 +74,7 @@ pub fn heroine() -> Scene {
 /// The built-in character with the anime look, its face map made from her mesh.
 pub fn anime_heroine() -> Scene {
     let mut scene = heroine();
-    hikage::Look::Anime { face: None }.apply(&mut scene);
+    hikage::Look::Anime(hikage::Anime::default()).apply(&mut scene);
     scene
 }
 

@@ -35,7 +35,8 @@ fn face_shadow_vary(v: Vertex, given: Varying) -> Varying {
 fn face_shadow_shade(s: Surface, border: Border) -> Border {
     var b = border;
     let m = &material.face_shadow;
-    let uv = s.at.uv.xy;
+    @if(!face_relief) let uv = s.at.uv.xy;
+    @if(face_relief) let uv = s.at.uv.zw;
     let light_x = s.at.face_light.x;
     let angle = s.at.face_light.z;
     let measure = s.at.face_light.w;
@@ -64,6 +65,7 @@ fn face_shadow_shade(s: Surface, border: Border) -> Border {
     }
     let region = map.b;
     let strength = map.a;
+    @if(channel_face_map) shown = map.rgb;
     b.of_face = 1.0 - region;
     // The map's region fades over the jaw, under which shade must be whole.
     b.of_body = saturate(4.0 - 4.0 * b.of_face);

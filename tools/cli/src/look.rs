@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use hikage::picture::write_atomic;
-use hikage::{Look, LookFile};
+use hikage::{Anime, Look, LookFile};
 
 use crate::failure::Failure;
 use crate::setup;
@@ -35,7 +35,7 @@ fn toml_path(text: &str) -> Result<PathBuf, String> {
 
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let mut scene = setup::load(args.model.as_deref())?;
-    Look::Anime { face: None }.apply(&mut scene);
+    Look::Anime(Anime::default()).apply(&mut scene);
     write_atomic(&args.output, LookFile::template(&scene).as_bytes())?;
     Ok(())
 }

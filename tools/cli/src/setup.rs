@@ -9,7 +9,7 @@ use hikage::import::load_radiance;
 use hikage::motion::{Pose, Stance};
 use hikage::scene::{Environment, Scene, Warning};
 use hikage::sdf::{Project, Sides};
-use hikage::{Gpu, Look, LookFile};
+use hikage::{Anime, Gpu, Look, LookFile};
 use hikage_character::head::sdf;
 
 use crate::args::{EnvironmentName, LookName};
@@ -60,12 +60,14 @@ pub(crate) const BUILT_IN: &str = "hikage.vrm";
 
 /// Gives a model its look: the named one, else the one that it brings.
 pub(crate) fn apply_look(name: Option<&LookName>, model: Option<&Path>, scene: &mut Scene) -> Result<(), Failure> {
+    let before = scene.warnings.len();
     match name.cloned().unwrap_or_else(|| own_look(model)) {
         LookName::Plain => {}
         LookName::Natural => Look::Natural.apply(scene),
-        LookName::Anime => Look::Anime { face: painted(model)? }.apply(scene),
+        LookName::Anime => Look::Anime(Anime { face: painted(model)?, ..Anime::default() }).apply(scene),
         LookName::File(file) => LookFile::read(file)?.apply(scene, painted(model)?.as_ref())?,
     }
+    show_warnings(scene.warnings.get(before..).unwrap_or_default());
     Ok(())
 }
 

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 
 use hikage::material::Material;
 use hikage::scene::{Meta, Role, Scene, Source, Warning};
+use hikage::sdf::{FaceStyle, Guide, Landmarks};
 use serde::Serialize;
 
 use super::memory::{geometry_bytes, image_uses, mipped_bytes};
@@ -32,6 +33,8 @@ pub(super) struct Summary<'a> {
     pub(super) expressions: Vec<ExpressionSummary<'a>>,
     /// `bones`, `expressions` or null.
     pub(super) look_at: Option<&'static str>,
+    /// What the anime look finds on each face, by the name of its material.
+    pub(super) faces: BTreeMap<&'a str, Landmarks>,
     pub(super) springs: Vec<SpringSummary<'a>>,
     pub(super) colliders: usize,
     pub(super) constraints: usize,
@@ -165,6 +168,7 @@ pub(super) fn summarize(scene: &Scene, bytes: u64) -> Summary<'_> {
             })
             .collect(),
         look_at: character.and_then(|c| c.look_at.as_ref()).map(|l| if l.uses_bones { "bones" } else { "expressions" }),
+        faces: faces(scene),
         springs: character
             .iter()
             .flat_map(|c| &c.springs)
@@ -193,6 +197,16 @@ pub(super) fn summarize(scene: &Scene, bytes: u64) -> Summary<'_> {
         textures,
         warnings,
     }
+}
+
+/// What is found on the face of each material that has one.
+fn faces(scene: &Scene) -> BTreeMap<&str, Landmarks> {
+    let of_face = |index: usize| {
+        let mut parts = scene.meshes.iter().flat_map(|m| &m.primitives);
+        parts.any(|p| p.role == Role::Face && p.material == index)
+    };
+    let materials = scene.materials.iter().enumerate().filter(|(index, _)| of_face(*index));
+    materials.filter_map(|(index, m)| Some((m.name.as_str(), *Guide::new(scene, index, FaceStyle::default())?.landmarks()?))).collect()
 }
 
 fn meshes(scene: &Scene) -> Vec<MeshSummary<'_>> {

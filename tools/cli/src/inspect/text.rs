@@ -1,6 +1,7 @@
 //! The text form of a model's summary.
 
 use hikage::material::{AlphaMode, Outline, OutlineWidth, Shading};
+use hikage::sdf::Landmarks;
 use serde::Serialize;
 
 use super::model::{MovesSummary, Summary};
@@ -72,6 +73,7 @@ fn head(summary: &Summary<'_>) -> String {
         ),
         ("moves", summary.moves.as_ref().map(moves).unwrap_or_default()),
         ("look-at", summary.look_at.unwrap_or_default().into()),
+        ("face", summary.faces.values().map(face).collect::<Vec<_>>().join("; ")),
         (
             "constraints",
             if summary.constraints == 0 {
@@ -86,6 +88,25 @@ fn head(summary: &Summary<'_>) -> String {
         .filter(|(_, value)| !value.is_empty())
         .map(|(name, value)| format!("{name:<12}{}\n", printable(value)))
         .collect()
+}
+
+fn face(found: &Landmarks) -> String {
+    let cm = |share: f32| share * found.height_m * 100.0;
+    let paint = |is_painted: bool| if is_painted { "painted" } else { "of the mesh" };
+    let mouth = if found.mouth_is_bare() { "a crease of the mesh" } else { paint(found.mouth_is_painted) };
+    format!(
+        "{:.1} cm high; eyes at {:.1} cm, {:.1} cm from the middle; nose at {:.1} cm, {:.1} mm out, {}; mouth at {:.1} cm, {:.1} cm \
+         wide, {mouth}; chin at {:.1} cm",
+        cm(1.0),
+        cm(found.eye[1]),
+        cm(found.eye[0]),
+        cm(found.nose),
+        cm(found.nose_out) * 10.0,
+        paint(found.nose_is_painted),
+        cm(found.mouth),
+        cm(found.mouth_half) * 2.0,
+        cm(found.chin),
+    )
 }
 
 fn moves(moves: &MovesSummary<'_>) -> String {

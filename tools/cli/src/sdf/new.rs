@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use hikage::picture::{write_atomic, write_png};
 use hikage::scene::{Role, Scene};
-use hikage::sdf::{FaceMap, LIT, Mask, face_map, wireframe};
+use hikage::sdf::{FaceMap, FaceStyle, Guide, LIT, Mask, wireframe};
 
 use super::unpack::{file_name, picture};
 use crate::failure::Failure;
@@ -21,9 +21,30 @@ pub(crate) struct Args {
     /// of the built-in character's face are the start.
     #[arg(long, value_name = "MODEL")]
     from: Option<PathBuf>,
+    /// How the face of a model is drawn: a small shade of the nose, a wedge, or none
+    #[arg(long, value_enum, default_value_t, requires = "from")]
+    style: Style,
     /// Side of the drawings, texels.
     #[arg(long, value_name = "TEXELS", default_value_t = 1024, value_parser = clap::value_parser!(u32).range(64..=4096))]
     size: u32,
+}
+
+#[derive(Clone, Copy, Default, clap::ValueEnum)]
+enum Style {
+    #[default]
+    Soft,
+    Classic,
+    Minimal,
+}
+
+impl From<Style> for FaceStyle {
+    fn from(style: Style) -> Self {
+        match style {
+            Style::Soft => Self::Soft,
+            Style::Classic => Self::Classic,
+            Style::Minimal => Self::Minimal,
+        }
+    }
 }
 
 /// Angles of the drawings, degrees.
@@ -31,7 +52,7 @@ const ANGLES: [f32; 12] = [0.0, 15.0, 30.0, 45.0, 60.0, 75.0, 90.0, 105.0, 120.0
 
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let scene = setup::load(args.from.as_deref())?;
-    let (material, guide) = face(&scene)?;
+    let (material, guide) = face(&scene, args.style.into())?;
     let project = match args.from {
         Some(_) => None,
         None => Some(setup::built_in_project()?),
@@ -65,9 +86,9 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
 }
 
 /// The first material with a face that a map can be made for.
-fn face(scene: &Scene) -> Result<(usize, FaceMap), Failure> {
+fn face(scene: &Scene, style: FaceStyle) -> Result<(usize, FaceMap), Failure> {
     let parts = scene.meshes.iter().flat_map(|m| &m.primitives).filter(|p| p.role == Role::Face);
-    let found = parts.map(|p| p.material).find_map(|m| Some((m, face_map(scene, m)?)));
+    let found = parts.map(|p| p.material).find_map(|m| Some((m, Guide::new(scene, m, style)?.over_texture(scene, m)?)));
     found.ok_or_else(|| {
         Failure::input(
             "no face with texture coordinates of its own for both sides, under a head bone; expected a character whose face \

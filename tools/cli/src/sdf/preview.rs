@@ -7,7 +7,7 @@ use hikage::picture::{encode_png, write_atomic};
 use hikage::render::Output;
 use hikage::scene::{Framing, Image, Scene};
 use hikage::sdf::{Mask, Project, ProjectKey, Sides};
-use hikage::{Background, Gpu, Look, Renderer, View, motion::Stance};
+use hikage::{Background, Gpu, Anime, Look, Renderer, View, motion::Stance};
 
 use crate::animation::{Animation, Kind};
 use crate::failure::{Failure, warn};
@@ -61,7 +61,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let sides = baked.into_sides();
     spinner.step("loading the model");
     let mut scene = setup::load(args.model.as_deref())?;
-    Look::Anime { face: Some(sides.clone()) }.apply(&mut scene);
+    Look::Anime(Anime { face: Some(sides.clone()), ..Anime::default() }).apply(&mut scene);
     if scene.face_maps.is_empty() {
         return Err(Failure::input("the model has no face with texture coordinates of its own for both sides"));
     }

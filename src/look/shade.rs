@@ -1,0 +1,176 @@
+//! Colours of shade for what a file leaves grey, or without any: a painter turns the hue with the light, and never mixes in black.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::f32::consts::PI;
+
+use glam::Vec3;
+
+use super::anime::materials_of;
+use super::tone::Tone;
+use crate::material::{Material, Shading, Toon};
+use crate::scene::painted::Painted;
+use crate::scene::{Role, Scene};
+
+/// Chroma up to which a factor of shade counts as nobody's choice.
+const GREY: f32 = 0.045;
+/// Luminance of a factor from which a file wants no shade at all.
+const FLAT: f32 = 0.9;
+/// Share of colour that lies in one hue where a material counts as of one colour.
+const OF_ONE_HUE: f32 = 0.8;
+/// What white cloth is multiplied by: sRGB (190, 196, 226) over (240, 240, 240).
+const LAVENDER: [f32; 3] = [0.59, 0.63, 0.87];
+/// Hues in Oklch, radians: of the shade of what is cool, and of what is warm.
+const BLUE: f32 = -1.5;
+const ROSE: f32 = -0.1;
+
+/// Gives a hue to grey shade, and to skin a warm one.
+pub(super) fn apply(scene: &mut Scene) {
+    let role = |roles: &[Role]| -> BTreeSet<usize> { roles.iter().flat_map(|r| materials_of(scene, *r)).collect() };
+    let skin = role(&[Role::Face, Role::Skin]);
+    let kept = role(&[Role::Eye, Role::EyeWhite, Role::EyeHighlight, Role::Lash, Role::Brow, Role::Mouth]);
+    let of_file = skin.iter().find_map(|index| {
+        let toon = unprepared_or_not(&scene.materials[*index])?;
+        let factor = factor(&scene.materials[*index], &toon);
+        (!is_grey(factor)).then_some(factor)
+    });
+    let mut chosen = BTreeMap::new();
+    for (index, material) in scene.materials.iter().enumerate().filter(|(i, _)| !kept.contains(i)) {
+        let Some(toon) = unprepared_or_not(material) else { continue };
+        let own = factor(material, &toon);
+        if !is_grey(own) || luminance(own) > FLAT {
+            continue;
+        }
+        let tone = mean(scene, index);
+        let new = match (skin.contains(&index), tone) {
+            (true, _) if of_file.is_some() => of_file.unwrap_or_default(),
+            (true, Some(Mean { tone, .. })) => over(tone, skin_shade(tone)),
+            (false, Some(Mean { tone, coherence })) if coherence > OF_ONE_HUE || tone.chroma < 0.03 => {
+                over(tone, cloth_shade(tone))
+            }
+            _ => LAVENDER,
+        };
+        chosen.insert(index, new);
+    }
+    for (index, factor) in chosen {
+        let material = &mut scene.materials[index];
+        let base = material.base.color;
+        if let Shading::Toon(toon) = &mut material.shading {
+            toon.shade_color = std::array::from_fn(|c| base[c] * factor[c]);
+            toon.shade_texture = material.base.texture;
+        }
+    }
+}
+
+/// The shading of a material whose shade no texture of its own paints.
+fn unprepared_or_not(material: &Material) -> Option<Toon> {
+    let Shading::Toon(toon) = material.shading else { return None };
+    let same = toon.shade_texture.is_none() || toon.shade_texture == material.base.texture;
+    (same && material.authored.ramps.is_none() && material.authored.substance.is_none()).then_some(toon)
+}
+
+/// What the lit colour is multiplied by in shade.
+fn factor(material: &Material, toon: &Toon) -> [f32; 3] {
+    std::array::from_fn(|c| {
+        let lit = material.base.color[c];
+        if lit > 1e-3 {
+            (toon.shade_color[c] / lit).clamp(0.0, 1.0)
+        } else {
+            1.0
+        }
+    })
+}
+
+fn is_grey(factor: [f32; 3]) -> bool {
+    Tone::of(factor).chroma < GREY
+}
+
+fn luminance(color: [f32; 3]) -> f32 {
+    crate::color::LinearRgb(color).luminance()
+}
+
+/// The colour of a material over its whole surface, and how much of its colour lies in one hue: 1 is all.
+struct Mean {
+    tone: Tone,
+    coherence: f32,
+}
+
+fn mean(scene: &Scene, material: usize) -> Option<Mean> {
+    let painted = Painted::new(scene, &scene.materials[material]);
+    let parts = scene.meshes.iter().flat_map(|m| &m.primitives).filter(|p| p.material == material);
+    let (mut sum, mut way, mut chroma, mut all) = (Vec3::ZERO, glam::Vec2::ZERO, 0.0, 0.0);
+    for (color, area) in parts.flat_map(|p| painted.of_triangles(p)) {
+        let tone = Tone::of(color);
+        sum += Vec3::from(color) * area;
+        way += glam::Vec2::from_angle(tone.hue_rad) * (tone.chroma * area);
+        chroma += tone.chroma * area;
+        all += area;
+    }
+    (all > 0.0).then(|| Mean {
+        tone: Tone::of((sum / all).to_array()),
+        coherence: if chroma > 0.0 { way.length() / chroma } else { 1.0 },
+    })
+}
+
+/// Warm, redder, and still alive.
+fn skin_shade(lit: Tone) -> Tone {
+    let shade = Tone { lightness: lit.lightness * 0.86, chroma: lit.chroma * 1.25 + 0.025, ..lit };
+    shade.towards(0.5, 0.35)
+}
+
+/// What is cool turns to blue, what is warm to rose; white to lavender, black to blue-black.
+fn cloth_shade(lit: Tone) -> Tone {
+    let neutral = Tone {
+        lightness: lit.lightness * if lit.lightness > 0.8 { 0.85 } else { 0.8 },
+        chroma: 0.042 * lit.lightness.max(0.35),
+        hue_rad: BLUE,
+    };
+    if lit.chroma < 0.03 {
+        return neutral;
+    }
+    let warm = (lit.hue_rad + 0.5).rem_euclid(2.0 * PI) < 2.6;
+    let colored = Tone { lightness: lit.lightness * 0.8, chroma: lit.chroma * 1.06, ..lit };
+    colored.towards(if warm { ROSE } else { BLUE }, 0.3)
+}
+
+/// One colour over another, no channel of it so dark that all of it is lost.
+fn over(lit: Tone, shade: Tone) -> [f32; 3] {
+    let (lit, shade) = (lit.to_linear(), shade.to_linear());
+    std::array::from_fn(|c| ((shade[c] + 0.004) / (lit[c] + 0.004)).clamp(0.12, 1.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::color::{LinearRgb, Srgb};
+
+    fn shaded(hex: &str, rule: fn(Tone) -> Tone) -> [i32; 3] {
+        let lit = Srgb::from_hex(hex).unwrap().to_linear().0;
+        let factor = over(Tone::of(lit), rule(Tone::of(lit)));
+        LinearRgb(std::array::from_fn(|c| lit[c] * factor[c])).to_srgb().0.map(i32::from)
+    }
+
+    #[test]
+    fn white_turns_lavender_and_black_blue() {
+        let [r, g, b] = shaded("#f0f0f0", cloth_shade);
+        assert!((r - 190).abs() < 14 && (g - 196).abs() < 14 && (b - 226).abs() < 14, "{r} {g} {b}");
+        let [r, _, b] = shaded("#1a1a1a", cloth_shade);
+        assert!(b > r && r > 8, "{r} {b}");
+    }
+
+    #[test]
+    fn skin_stays_warm_within_its_hue() {
+        for hex in ["#ffe8d8", "#f2c9a8", "#8a5a3c"] {
+            let lit = Tone::of(Srgb::from_hex(hex).unwrap().to_linear().0);
+            let [r, g, b] = shaded(hex, skin_shade);
+            assert!(r > g && g > b - 12, "{hex}: {r} {g} {b}");
+            let turned = (skin_shade(lit).hue_rad - lit.hue_rad).abs().to_degrees();
+            assert!(turned <= 25.0, "{hex}: {turned}");
+        }
+    }
+
+    #[test]
+    fn yellow_turns_towards_orange() {
+        let [r, g, b] = shaded("#f2d040", cloth_shade);
+        assert!(r - g > 45 && b < g, "{r} {g} {b}");
+    }
+}

@@ -1,0 +1,167 @@
+//! Whether a face can still be read: the contrast of its features under the file's own shading and under the map.
+
+use glam::{Vec2, Vec3};
+use serde::Serialize;
+
+use super::Guide;
+use super::landmarks::{Landmarks, place};
+use super::relief::{Relief, SIDE};
+use crate::material::Toon;
+
+/// Least share of a feature's contrast that the map must keep.
+pub const KEPT: f32 = 0.8;
+/// Contrast below which nobody sees a feature.
+const SEEN: f32 = 0.012;
+/// Lights: as many all round, at this height, radians.
+const LIGHTS: usize = 12;
+const PITCH: f32 = 0.3;
+/// Half width of the border of the map, as [`FaceShadow`](crate::material::FaceShadow) has it.
+const SOFTNESS: f32 = 0.012;
+
+/// What lives from the shading of a face.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Feature {
+    /// The nose.
+    Nose,
+    /// The mouth.
+    Mouth,
+}
+
+/// The contrast of a feature against the skin around it, under the light that takes most of it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Contrast {
+    /// Which feature.
+    pub feature: Feature,
+    /// Where that light stands, degrees to the character's left.
+    pub yaw_deg: f32,
+    /// As the file shades it: deviation of the luminance from what is around, share of that.
+    pub before: f32,
+    /// Under the map.
+    pub after: f32,
+}
+
+impl Contrast {
+    /// Whether enough of it is left.
+    #[must_use]
+    pub fn is_kept(&self) -> bool {
+        self.after >= KEPT * self.before
+    }
+}
+
+impl Guide {
+    /// The contrast of each feature as the file shades it and under the map; `shades` are what the luminance of its lit colour is
+    /// multiplied by in shade, before and after. None without landmarks.
+    #[must_use]
+    pub fn contrasts(&self, toon: &Toon, shades: [f32; 2]) -> Vec<Contrast> {
+        let Some(landmarks) = &self.landmarks else { return Vec::new() };
+        let worst = |feature| self.worst(landmarks, feature, toon, shades);
+        [Feature::Nose, Feature::Mouth].into_iter().map(worst).collect()
+    }
+
+    /// Share of the front of the face that light from the front shows otherwise under the map than by the file: more than some
+    /// of it, and the map does not belong to this mesh.
+    #[must_use]
+    pub fn changed(&self, toon: &Toon) -> f32 {
+        let front = (0..SIDE * SIDE).filter(|i| {
+            let from = Vec2::new((i % SIDE) as f32, (i / SIDE) as f32) / SIDE as f32 - 0.5;
+            from.x.abs() < 0.2 && from.y.abs() < 0.4
+        });
+        let to_light = Vec3::new(0.0, PITCH.sin(), PITCH.cos());
+        let (mut changed, mut all) = (0usize, 0usize);
+        for i in front {
+            let own = own(toon, self.relief.normals[i], to_light);
+            changed += usize::from((self.lit(i, 0.0, own) - own).abs() > 0.5);
+            all += 1;
+        }
+        changed as f32 / all.max(1) as f32
+    }
+
+    fn worst(&self, landmarks: &Landmarks, feature: Feature, toon: &Toon, shades: [f32; 2]) -> Contrast {
+        let cells = cells(&self.relief, landmarks, feature);
+        let lights = (0..LIGHTS).map(|i| {
+            let yaw = (i as f32 / LIGHTS as f32 * 2.0 - 1.0) * std::f32::consts::PI;
+            let to_light = Vec3::new(yaw.sin() * PITCH.cos(), PITCH.sin(), yaw.cos() * PITCH.cos());
+            let by = |shade: f32, lit: &dyn Fn(usize) -> f32| {
+                deviation(&cells, |i| self.relief.painted[i] * (shade + (1.0 - shade) * lit(i)))
+            };
+            let before = by(shades[0], &|i| own(toon, self.relief.normals[i], to_light));
+            let after = by(shades[1], &|i| self.lit(i, yaw, own(toon, self.relief.normals[i], to_light)));
+            Contrast { feature, yaw_deg: yaw.to_degrees(), before, after }
+        });
+        let share = |c: &Contrast| if c.before > SEEN { c.after / c.before } else { f32::MAX };
+        let none = Contrast { feature, yaw_deg: 0.0, before: 0.0, after: 0.0 };
+        lights.min_by(|a, b| share(a).total_cmp(&share(b))).unwrap_or(none)
+    }
+
+    /// Share of light under the map at a cell.
+    fn lit(&self, cell: usize, yaw: f32, own: f32) -> f32 {
+        let middle = Vec2::new((cell % SIDE) as f32 + 0.5, (cell / SIDE) as f32 + 0.5) / SIDE as f32;
+        let [right, left, normal] = self.thresholds.at(middle);
+        let tau = if yaw >= 0.0 { left } else { right };
+        let t = ((tau - yaw.abs() / std::f32::consts::PI) / (2.0 * SOFTNESS) + 0.5).clamp(0.0, 1.0);
+        let mapped = t * t * (3.0 - 2.0 * t);
+        mapped + (own - mapped) * normal
+    }
+
+    /// Leaves a feature to the file's own shading by a share, with a smooth border.
+    pub fn leave(&mut self, feature: Feature, share: f32) {
+        let Some(landmarks) = self.landmarks else { return };
+        let (middle, half) = bounds(&landmarks, feature);
+        for i in 0..SIDE * SIDE {
+            let up = 1.0 - ((i / SIDE) as f32 + 0.5) / SIDE as f32;
+            let angle = Relief::angle((i % SIDE) as f32);
+            if angle.abs() < 1.0 {
+                let across = angle.sin() * self.relief.distance[i] / self.relief.height;
+                let from = (Vec2::new(across, up - middle) / half).length();
+                self.thresholds.leave(i, share * ((1.5 - from) / 0.6).clamp(0.0, 1.0));
+            }
+        }
+    }
+}
+
+/// MToon's shading of a normal.
+fn own(toon: &Toon, normal: Vec3, to_light: Vec3) -> f32 {
+    let x = normal.dot(to_light) + toon.shift;
+    ((x + 1.0 - toon.toony) / (2.0 - 2.0 * toon.toony).max(1e-3)).clamp(0.0, 1.0)
+}
+
+/// Height of the middle, and half size, of a feature.
+fn bounds(l: &Landmarks, feature: Feature) -> (f32, Vec2) {
+    let span = l.eye[1] - l.chin;
+    match feature {
+        Feature::Nose => (l.nose - 0.04 * span, Vec2::new(0.5 * l.eye[0], 0.17 * span)),
+        Feature::Mouth => (l.mouth, Vec2::new(0.9 * l.mouth_half, 0.1 * span)),
+    }
+}
+
+/// Columns and rows of a feature.
+fn cells(relief: &Relief, l: &Landmarks, feature: Feature) -> Vec<Vec<usize>> {
+    let (middle, half) = bounds(l, feature);
+    let [left, top] = Relief::cell(place(relief, -half.x, middle + half.y));
+    let [right, bottom] = Relief::cell(place(relief, half.x, middle - half.y));
+    (top..=bottom).map(|y| (left..=right).map(|x| y * SIDE + x).collect()).collect()
+}
+
+/// Root mean square of what stands out from the plane that lies through the luminance of a box, share of its mean: a border
+/// between light and shade that crosses the whole box counts little, a mark in it counts whole.
+fn deviation(rows: &[Vec<usize>], luminance: impl Fn(usize) -> f32) -> f32 {
+    let (height, width) = (rows.len(), rows.first().map_or(0, Vec::len));
+    if height < 2 || width < 2 {
+        return 0.0;
+    }
+    let values: Vec<f32> = rows.iter().flatten().map(|i| luminance(*i)).collect();
+    let count = values.len() as f32;
+    let mean = values.iter().sum::<f32>() / count;
+    let at = |i: usize| {
+        Vec2::new((i % width) as f32 / (width - 1) as f32 - 0.5, (i / width) as f32 / (height - 1) as f32 - 0.5)
+    };
+    let (mut slope, mut square) = (Vec2::ZERO, Vec2::ZERO);
+    for (i, value) in values.iter().enumerate() {
+        slope += at(i) * (value - mean);
+        square += at(i) * at(i);
+    }
+    let slope = slope / square.max(Vec2::splat(1e-6));
+    let off = |(i, value): (usize, &f32)| (value - mean - slope.dot(at(i))).powi(2);
+    (values.iter().enumerate().map(off).sum::<f32>() / count).sqrt() / mean.max(1e-3)
+}

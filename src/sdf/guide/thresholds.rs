@@ -1,0 +1,188 @@
+//! The angle of the light at which each place of a face turns dark, as a painter lays it out: a calm line over the cheek, the
+//! nose, the light under the far eye, the crease of the mouth.
+
+use std::f32::consts::PI;
+
+use glam::Vec2;
+use rayon::prelude::*;
+
+use super::FaceStyle;
+use super::landmarks::{Landmarks, at};
+use super::relief::{Field, REACH, Relief, SIDE, sample, smoothed};
+
+/// Thresholds over the relief.
+pub(super) struct Thresholds {
+    /// For light from the character's left: angle over π at which a place turns dark.
+    from_left: Field,
+    /// Share of normal shading: behind the face, and below the head.
+    normal: Field,
+}
+
+impl Thresholds {
+    /// Of a face; without landmarks of the smooth head alone.
+    pub(super) fn new(relief: &Relief, landmarks: Option<&Landmarks>, style: FaceStyle) -> Self {
+        let degree = SIDE as f32 / (2.0 * REACH.to_degrees());
+        let row = SIDE as f32;
+        // The head as if it had no features, and features without what is finer than them.
+        let head = smoothed(&relief.distance, 13.0 * degree, 0.07 * row);
+        let features = smoothed(&relief.distance, 2.5 * degree, 0.011 * row);
+        let share = smoothed(&relief.share, 2.0 * degree, 0.01 * row);
+        let cells = (0..SIDE * SIDE).into_par_iter();
+        let both: Vec<(f32, f32)> = cells
+            .map(|i| {
+                let (x, y) = (i % SIDE, i / SIDE);
+                let angle = Relief::angle(x as f32);
+                let turned = azimuth(&head, x, y);
+                let over = (features[i] - head[i]) / relief.height;
+                let across = angle.sin() * sample(&relief.distance, cell_middle(x, y)) / relief.height;
+                let place = Vec2::new(across, 1.0 - (y as f32 + 0.5) / SIDE as f32);
+                // The line between light and shade runs round what stands out.
+                let round = landmarks.map_or(0.0, |l| {
+                    (over * 1000.0).clamp(-12.0, 22.0) * (1.0 - near_eye(l, place)) * fade(40.0, 15.0, angle.to_degrees().abs())
+                });
+                let mut dark_at = 90.0 + turned.to_degrees() + round;
+                if let Some(landmarks) = landmarks {
+                    dark_at = cheek_light(landmarks, place, dark_at);
+                    dark_at = drawn(landmarks, style, place, dark_at);
+                }
+                let behind = fade(77.0, 100.0, turned.to_degrees().abs());
+                let below = fade(0.98, 0.75, share[i]);
+                ((dark_at / 180.0).clamp(0.0, 1.0), behind.max(below))
+            })
+            .collect();
+        let mut from_left: Field = both.iter().map(|(dark, _)| *dark).collect();
+        let mut normal: Field = both.iter().map(|(_, normal)| *normal).collect();
+        if let Some(landmarks) = landmarks.filter(|l| l.mouth_is_bare()) {
+            mouth(relief, landmarks, &mut from_left);
+        }
+        // Whatever lies outside of the picture repeats its edge.
+        for i in 0..SIDE {
+            for edge in [i, (SIDE - 1) * SIDE + i, i * SIDE, i * SIDE + SIDE - 1] {
+                normal[edge] = 1.0;
+            }
+        }
+        Self { from_left, normal }
+    }
+
+    /// Thresholds for light from the right and from the left, and the share of normal shading, at a place of the relief.
+    pub(super) fn at(&self, place: Vec2) -> [f32; 3] {
+        let mirrored = Vec2::new(1.0 - place.x, place.y);
+        [sample(&self.from_left, mirrored), sample(&self.from_left, place), sample(&self.normal, place)]
+    }
+}
+
+impl Thresholds {
+    /// Leaves a cell to normal shading by this share at least.
+    pub(super) fn leave(&mut self, cell: usize, share: f32) {
+        if let Some(normal) = self.normal.get_mut(cell) {
+            *normal = normal.max(share);
+        }
+    }
+}
+
+fn cell_middle(x: usize, y: usize) -> Vec2 {
+    Vec2::new(x as f32 + 0.5, y as f32 + 0.5) / SIDE as f32
+}
+
+/// Where the surface looks to, as an angle from the front to the character's left, radians.
+fn azimuth(distance: &[f32], x: usize, y: usize) -> f32 {
+    let (low, high) = (x.saturating_sub(1), (x + 1).min(SIDE - 1));
+    let step = (high - low) as f32 * 2.0 * REACH / SIDE as f32;
+    let slope = (distance[y * SIDE + high] - distance[y * SIDE + low]) / step.max(1e-6);
+    Relief::angle(x as f32) - slope.atan2(distance[y * SIDE + x].max(1e-6))
+}
+
+/// 0 at `from`, 1 at `to`, smooth between; either may be the greater.
+fn fade(from: f32, to: f32, x: f32) -> f32 {
+    let t = ((x - from) / (to - from)).clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
+}
+
+/// 1 on the eyes and their lids, which stay clean.
+fn near_eye(l: &Landmarks, place: Vec2) -> f32 {
+    let out = Vec2::new(place.x.abs() - l.eye[0], place.y - l.eye[1]) / (Vec2::from(l.eye_half) * 1.35).max(Vec2::splat(1e-4));
+    fade(1.2, 0.8, out.length())
+}
+
+/// The light that stays under the far eye while the nose shades what lies between.
+fn cheek_light(l: &Landmarks, place: Vec2, dark_at: f32) -> f32 {
+    // The far side of light from the left.
+    let side = -place.x;
+    let top = l.eye[1] - 0.9 * l.eye_half[1];
+    let bottom = l.mouth + 0.25 * (l.nose - l.mouth);
+    let down = (top - place.y) / (top - bottom).max(1e-4);
+    let half = l.eye_half[0] * (1.05 - 0.85 * down);
+    let inside = fade(1.0, 0.25, (side - l.eye[0] * (1.0 - 0.12 * down)).abs() / half.max(1e-4));
+    let within = fade(-0.25, 0.1, down) * fade(1.05, 0.6, down);
+    dark_at + (100.0 - dark_at).clamp(0.0, 26.0) * inside * within * f32::from(u8::from(side > 0.0))
+}
+
+/// The nose: its shade on the far side, and a mark under the tip where the file paints none.
+fn drawn(l: &Landmarks, style: FaceStyle, place: Vec2, dark_at: f32) -> f32 {
+    let side = -place.x;
+    let (tall, wide) = match style {
+        FaceStyle::Soft => (0.26, 0.3),
+        FaceStyle::Classic => (0.5, 0.48),
+        FaceStyle::Minimal => (0.0, 0.0),
+    };
+    let bottom = l.nose - 0.16 * (l.nose - l.mouth);
+    let tall = tall * (l.eye[1] - bottom);
+    let wide = wide * l.eye_half[0];
+    let mut dark_at = dark_at;
+    if tall > 0.0 && side > -0.02 * wide {
+        // A triangle along the bridge, whose lower edge rises outwards.
+        let up = (place.y - bottom) / tall;
+        let out = side / wide.max(1e-5);
+        let edge = 1.0 - up.max(0.0);
+        let lower = 0.18 * out;
+        if up > lower && up < 1.0 && out < edge {
+            let grown = out / edge.max(1e-3);
+            dark_at = dark_at.min(36.0 + 27.0 * grown.max(up * 0.4));
+        }
+    }
+    if !l.nose_is_painted {
+        let from = Vec2::new(place.x / (0.2 * l.eye_half[0]), (place.y - bottom) / (0.055 * l.eye_half[0]).max(1e-5));
+        if from.length() < 1.0 {
+            dark_at = 0.0;
+        }
+    }
+    dark_at
+}
+
+/// The crease between the lips, thinner towards its ends, where the mesh has it.
+fn mouth(relief: &Relief, l: &Landmarks, dark_at: &mut [f32]) {
+    let fine = smoothed(&relief.distance, 1.0, 1.0);
+    let broad = smoothed(&relief.distance, 7.0, 7.0);
+    let dent: Field = broad.iter().zip(&fine).map(|(b, f)| b - f).collect();
+    // Height of the crease along the mouth, smoothed over its neighbours.
+    let columns = 25usize;
+    let along = |i: usize| i as f32 / (columns - 1) as f32 * l.mouth_half;
+    let deepest = |across: f32| {
+        let rows = (-8..=8).map(|i| l.mouth + i as f32 * 0.002);
+        rows.max_by(|a, b| at(relief, &dent, across, *a).total_cmp(&at(relief, &dent, across, *b))).unwrap_or(l.mouth)
+    };
+    let heights: Vec<f32> = (0..columns).map(|i| deepest(along(i))).collect();
+    let smooth = |i: usize| {
+        let near = &heights[i.saturating_sub(3)..(i + 4).min(columns)];
+        near.iter().sum::<f32>() / near.len() as f32
+    };
+    let smoothed: Vec<f32> = (0..columns).map(smooth).collect();
+    for y in 0..SIDE {
+        let up = 1.0 - (y as f32 + 0.5) / SIDE as f32;
+        for x in 0..SIDE {
+            let angle = Relief::angle(x as f32);
+            if angle.abs() > 0.25 * PI {
+                continue;
+            }
+            let across = (angle.sin() * sample(&relief.distance, cell_middle(x, y)) / relief.height).abs();
+            let share = across / l.mouth_half.max(1e-5);
+            if share < 0.85 {
+                let i = ((share * (columns - 1) as f32).round() as usize).min(columns - 1);
+                let thick = 0.0042 * (1.0 - (share / 0.85).powi(2)).max(0.15);
+                if (up - smoothed[i]).abs() < thick {
+                    dark_at[y * SIDE + x] = 0.0;
+                }
+            }
+        }
+    }
+}
