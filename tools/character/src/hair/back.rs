@@ -36,9 +36,9 @@ fn guide(fall: &Fall) -> Vec<Vec3> {
         let below = TOP - y;
         let free = smoothstep(0.0, 0.26, below);
         let phase = below * 13.5 + 1.3 * across + 0.5 * vary(id, 4);
-        let sway = 0.1 * free * phase.sin();
-        let swell = 0.008 * free * (phase * 1.2 + 1.0).sin();
-        let end = smoothstep(0.7, 1.0, t).powi(2);
+        let sway = 0.15 * free * phase.sin();
+        let swell = 0.01 * free * (phase * 1.2 + 1.0).sin();
+        let end = smoothstep(0.66, 1.0, t).powf(1.5);
         let up = 0.012 * end * (curl[0].abs() * 8.0).min(1.0);
         guide.push(hang(across + sway + curl[0] * end, y + up, lift + swell + curl[1] * end));
     }
@@ -57,18 +57,18 @@ fn chain(across: f32) -> &'static str {
 
 /// Large clumps: place across, tip, half width, lift, curl.
 const LARGE: &[(f32, f32, f32, f32, f32)] = &[
-    (-1.0, 1.02, 0.03, 0.005, -0.2),
-    (-0.69, 0.945, 0.033, 0.006, 0.18),
-    (-0.33, 1.0, 0.038, 0.0055, -0.16),
-    (0.06, 0.925, 0.03, 0.007, 0.2),
-    (0.4, 0.985, 0.036, 0.006, -0.2),
-    (0.72, 0.955, 0.03, 0.007, 0.14),
-    (1.02, 1.035, 0.032, 0.005, 0.22),
+    (-1.02, 1.04, 0.032, 0.0045, -0.28),
+    (-0.7, 0.95, 0.037, 0.0065, 0.26),
+    (-0.33, 1.01, 0.042, 0.005, -0.22),
+    (0.07, 0.925, 0.034, 0.0075, 0.3),
+    (0.42, 0.995, 0.041, 0.0055, -0.26),
+    (0.75, 0.945, 0.034, 0.007, 0.24),
+    (1.03, 1.045, 0.033, 0.0045, 0.3),
 ];
 
 /// Forks of each: where they leave it, side, spread, length, half width.
 const FORKS: &[(f32, f32, f32, f32, f32)] =
-    &[(0.5, -0.8, 0.016, 0.9, 0.0165), (0.56, 0.75, 0.02, 0.98, 0.013), (0.62, 0.2, 0.014, 1.05, 0.006)];
+    &[(0.52, -0.8, 0.02, 0.9, 0.017), (0.6, 0.75, 0.022, 1.0, 0.0125), (0.66, 0.2, 0.018, 1.05, 0.005)];
 
 /// All of it.
 pub(super) fn build() -> Vec<Placed> {
@@ -100,9 +100,9 @@ pub(super) fn build() -> Vec<Placed> {
         let lock = Lock {
             guide: guide(&fall),
             width,
-            thickness: 0.0125,
+            thickness: 0.015,
             root: 0.4,
-            belly: 0.4,
+            belly: 0.55,
             // Each lies over its neighbour with one edge.
             roll: [0.09, 0.4 * vary(i, 3)],
             strip: (i % 2) as usize,
@@ -114,19 +114,19 @@ pub(super) fn build() -> Vec<Placed> {
         locks.push((lock, chain(across)));
     }
     // Over the borders, shorter.
-    for i in 0..8u32 {
-        let across = -0.9 + 1.8 * i as f32 / 7.0 + 0.05 * vary(i, 13);
+    for i in 0..6u32 {
+        let across = -0.88 + 1.76 * i as f32 / 5.0 + 0.09 * vary(i, 13);
         let fall = Fall {
             across,
             tip: 1.06 + 0.15 * hash(i, 3, 16),
-            lift: 0.0145 + 0.003 * vary(i, 14),
+            lift: 0.0125 + 0.003 * vary(i, 14),
             curl: [0.22 * vary(i, 18), 0.012],
             start: 10.0 + 10.0 * hash(i, 2, 19),
             id: i + 40,
         };
         let lock = Lock {
             guide: guide(&fall),
-            width: 0.017 + 0.005 * hash(i, 2, 17),
+            width: 0.018 + 0.006 * hash(i, 2, 17),
             thickness: 0.0095,
             root: 0.4,
             belly: 0.45,
@@ -135,8 +135,8 @@ pub(super) fn build() -> Vec<Placed> {
         };
         locks.push((lock, chain(across)));
     }
-    for i in 0..9u32 {
-        let across = (i as f32 / 8.0 * 2.0 - 1.0) * 1.12;
+    for i in 0..7u32 {
+        let across = (i as f32 / 3.0 - 1.0) * 1.1 + 0.1 * vary(i, 30);
         let fall = Fall {
             across,
             tip: 0.93 + 0.24 * hash(i, 1, 31),

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::lock::{Lock, THIN};
+use super::lock::{Lock, THIN, UNDER};
 use super::surface::{Placed, rooted, shell, vary};
 use crate::picture::smoothstep;
 
@@ -12,36 +12,36 @@ struct Bang([f32; 2], f32, [f32; 2], f32, f32, f32, usize);
 
 /// From her right to her left.
 const LARGE: &[Bang] = &[
-    Bang([-50.0, -58.0], -0.0775, [-0.0665, 1.38], 0.0185, 0.0075, 0.003, 1),
+    Bang([-50.0, -58.0], -0.0765, [-0.0645, 1.374], 0.0175, 0.0075, 0.003, 1),
     Bang([-6.0, -30.0], -0.0455, [-0.027, 1.4305], 0.0285, 0.0085, 0.0055, 0),
     Bang([10.0, -4.0], -0.0105, [0.0055, 1.406], 0.0135, 0.007, 0.0085, 2),
     Bang([16.0, 21.0], 0.0345, [0.0245, 1.4335], 0.0245, 0.0085, 0.006, 1),
-    Bang([36.0, 48.0], 0.0705, [0.0635, 1.386], 0.0185, 0.0075, 0.0035, 0),
+    Bang([36.0, 48.0], 0.0705, [0.0615, 1.38], 0.0175, 0.0075, 0.0035, 0),
 ];
 
 /// Forks: which large lock, where they leave it, side, spread, length, half width.
 const FORKS: &[(usize, f32, f32, f32, f32, f32)] = &[
     (0, 0.45, -0.7, 0.004, 0.9, 0.009),
-    (0, 0.5, 0.8, 0.006, 0.84, 0.0075),
+    (0, 0.5, 0.8, 0.003, 0.86, 0.007),
     (1, 0.4, -0.85, 0.014, 1.0, 0.0125),
     (1, 0.5, 0.6, 0.002, 1.0, 0.008),
     (2, 0.55, -0.75, 0.006, 0.93, 0.0068),
     (3, 0.4, 0.85, 0.014, 1.0, 0.0115),
     (3, 0.5, -0.6, 0.002, 0.99, 0.0072),
     (4, 0.45, 0.7, 0.004, 0.94, 0.009),
-    (4, 0.5, -0.8, 0.006, 0.82, 0.007),
+    (4, 0.5, -0.8, 0.003, 0.85, 0.007),
     (1, 0.6, -0.2, -0.004, 1.06, 0.0042),
     (2, 0.6, 0.5, 0.009, 0.98, 0.0042),
     (3, 0.6, 0.25, 0.003, 1.07, 0.004),
 ];
 
 /// Shorter ones in the gaps.
-const UNDER: &[Bang] = &[
-    Bang([-30.0, -46.0], -0.062, [-0.0565, 1.434], 0.0185, 0.005, -0.001, 3),
-    Bang([-12.0, -22.0], -0.031, [-0.0335, 1.4465], 0.0205, 0.005, -0.001, 3),
-    Bang([0.0, -4.0], -0.006, [-0.0085, 1.4445], 0.0205, 0.005, -0.001, 3),
-    Bang([14.0, 12.0], 0.0185, [0.0165, 1.4475], 0.0205, 0.005, 0.0, 3),
-    Bang([26.0, 36.0], 0.053, [0.0485, 1.436], 0.0185, 0.005, -0.001, 3),
+const LOWER: &[Bang] = &[
+    Bang([-30.0, -46.0], -0.062, [-0.0565, 1.434], 0.0185, 0.005, -0.001, UNDER),
+    Bang([-12.0, -22.0], -0.031, [-0.0335, 1.4465], 0.0205, 0.005, -0.001, UNDER),
+    Bang([0.0, -4.0], -0.006, [-0.0085, 1.4445], 0.0205, 0.005, -0.001, UNDER),
+    Bang([14.0, 12.0], 0.0185, [0.0165, 1.4475], 0.0205, 0.005, 0.0, UNDER),
+    Bang([26.0, 36.0], 0.053, [0.0485, 1.436], 0.0185, 0.005, -0.001, UNDER),
 ];
 
 /// Depth before the face at this x, for the brow and for tips.
@@ -52,7 +52,7 @@ fn before_face(x: f32, gap: f32) -> f32 {
 fn guide(&Bang([whorl, root], brow, [x, y], width, _, lift, _): &Bang) -> Vec<Vec3> {
     let fall = 1.446 + 0.25 * (y - 1.42);
     // Only large ones reach the whorl.
-    let start = if width > 0.015 && lift > 0.0 { 4.0 } else { 26.0 };
+    let start = if width > 0.015 && lift > 0.0 { 4.0 } else { 16.0 };
     let mut guide: Vec<Vec3> = [0.0, 0.2, 0.4, 0.6, 0.8, 1.0]
         .map(|t| start + (77.0 - start) * t)
         .map(|down| rooted(whorl + (root - whorl) * smoothstep(10.0, 66.0, down), down, start, lift))
@@ -83,7 +83,7 @@ pub(super) fn build() -> Vec<Placed> {
             guide: guide(bang),
             width,
             thickness,
-            root: 0.55,
+            root: if width > 0.015 { 0.55 } else { 0.1 },
             belly: if lift > 0.0 { 0.56 } else { 0.7 },
             // The edge that the tip leans to lies lower.
             roll: [0.06 * vary(i as u32, 1), (x - brow) * 8.0],
@@ -97,7 +97,7 @@ pub(super) fn build() -> Vec<Placed> {
     for &(of, from, side, spread, reach, width) in FORKS {
         locks.push((large[of].fork(from, side, spread, reach, width), chain(LARGE[of].2[0])));
     }
-    for (i, bang) in UNDER.iter().enumerate() {
+    for (i, bang) in LOWER.iter().enumerate() {
         locks.push((lock(i + 20, bang), chain(bang.2[0])));
     }
     locks.push((ahoge(), ""));

@@ -42,11 +42,8 @@ fn along(guide: &[Vec3], t: f32) -> Vec3 {
 
 /// Away from the head, and below it away from the neck.
 fn outward(p: Vec3) -> Vec3 {
-    let from = if p.y > SKULL_CENTER.y {
-        SKULL_CENTER
-    } else {
-        Vec3::new(0.0, p.y, -0.02)
-    };
+    let below = ((SKULL_CENTER.y - p.y) / 0.08).clamp(0.0, 1.0);
+    let from = SKULL_CENTER.with_y(p.y.min(SKULL_CENTER.y)) - Vec3::Z * (0.008 * below);
     (p - from).normalize_or(Vec3::Z)
 }
 
@@ -106,7 +103,7 @@ impl Course {
             } else {
                 0.0
             };
-            effort.push(effort[i] + a.length() * (1.0 + 0.6 * self.lengths[i] / self.total()) + 0.03 * bend);
+            effort.push(effort[i] + a.length() * (1.0 + 0.6 * self.lengths[i] / self.total()) + 0.07 * bend);
         }
         (0..count)
             .map(|s| {

@@ -16,13 +16,15 @@ const BAND_REACH: f32 = 0.07;
 /// Texture coordinate v of the root of a lock that starts below the ring.
 const LOW_V: f32 = 0.58;
 /// Strips of the texture: where each starts and ends in u. Two for large locks, two for middle ones, one for thin ones, one
-/// for what lies inside.
-pub(super) const STRIPS: [[f32; 2]; 6] =
-    [[0.0, 0.22], [0.22, 0.44], [0.44, 0.58], [0.58, 0.72], [0.72, 0.78], [0.78, 1.0]];
+/// for the lower layer of the bangs, one for what lies inside.
+pub(super) const STRIPS: [[f32; 2]; 7] =
+    [[0.0, 0.2], [0.2, 0.4], [0.4, 0.53], [0.53, 0.66], [0.66, 0.72], [0.72, 0.87], [0.87, 1.0]];
 /// The strip of thin locks.
 pub(super) const THIN: usize = 4;
+/// The strip of lower layers.
+pub(super) const UNDER: usize = 5;
 /// The dark strip.
-pub(super) const INNER: usize = 5;
+pub(super) const INNER: usize = 6;
 /// Radius of the body of hair that sections bend round, metres.
 const ROUND: f32 = 0.1;
 
@@ -108,7 +110,6 @@ impl Lock {
                 p + beyond + across * offset + out * self.thickness * (0.25 * s.min(0.5) - 0.1)
             })
             .collect();
-        let strip = if width > 0.0065 { 2 + self.strip % 2 } else { THIN };
         Self {
             guide,
             width,
@@ -116,7 +117,7 @@ impl Lock {
             root: 0.3,
             belly: 0.5,
             roll: [self.roll[0] + self.roll[1] * from + side * 0.25, self.roll[1] * 0.5],
-            strip: if self.strip == INNER { INNER } else { strip },
+            strip: if width > 0.0065 { 2 + self.strip % 2 } else { THIN },
         }
     }
 

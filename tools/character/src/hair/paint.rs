@@ -3,8 +3,8 @@
 
 use glam::{Vec2, Vec3};
 
-use super::lock::{BAND_V, INNER, STRIPS};
-use crate::picture::{Picture, hash, noise, rgb, smoothstep};
+use super::lock::{BAND_V, INNER, STRIPS, UNDER};
+use crate::picture::{Picture, noise, rgb, smoothstep};
 
 fn mix(a: Vec3, b: Vec3, t: f32) -> Vec3 {
     a + (b - a) * t.clamp(0.0, 1.0)
@@ -40,11 +40,13 @@ fn paint(tones: &Tones) -> Picture {
         let v = uv.y + 0.03 * strands(Vec2::new(uv.x, 0.3), 48.0, 3);
         let mut color = mix(root, middle, smoothstep(-0.02, 0.21, v));
         color = mix(color, tip, smoothstep(0.56, 1.0, v));
-        if strip == INNER {
-            color = mix(inner, color, 0.12);
+        match strip {
+            UNDER => color = mix(color, inner, 0.4),
+            INNER => color = mix(inner, color, 0.12),
+            _ => {}
         }
         // No two neighbours have quite the same tone.
-        color *= [1.0, 0.97, 1.01, 0.965, 1.0, 1.0][strip];
+        color *= [1.0, 0.97, 1.01, 0.96, 1.0, 1.0, 1.0][strip];
         // Broad strands, some paler and some darker.
         let broad = strands(uv, 36.0, 11);
         let fine = strands(uv, 120.0, 12);
@@ -52,11 +54,11 @@ fn paint(tones: &Tones) -> Picture {
         color = mix(color, Vec3::ONE, 0.12 * smoothstep(0.2, 0.95, -broad) * smoothstep(0.08, 0.3, v));
         // A few drawn lines, pressed at root and tip.
         let pen = smoothstep(0.8, 0.92, noise(Vec2::new(uv.x * 110.0, uv.y * 1.6), [110, 64], 23));
-        let press = 0.25 + smoothstep(0.5, 0.95, v) + smoothstep(0.25, 0.0, v);
-        color = mix(color, line, 0.42 * pen * press.min(1.0));
+        let press = 0.4 + smoothstep(0.5, 0.95, v) + smoothstep(0.25, 0.0, v);
+        color = mix(color, line, 0.5 * pen * press.min(1.0));
         // Locks turn away at their edges, and have a paler back.
         let edge = (across - 0.5).abs() * 2.0;
-        color = mix(color, line, 0.34 * smoothstep(0.7, 1.0, edge));
+        color = mix(color, line, 0.5 * smoothstep(0.74, 1.0, edge));
         color = mix(color, Vec3::ONE, 0.1 * smoothstep(0.45, 0.0, (across - 0.42).abs() * 2.0));
         [color.x, color.y, color.z, 1.0]
     })
@@ -73,7 +75,7 @@ pub(super) fn shade() -> Picture {
 }
 
 /// Half height of a mark of the band of light at full size, in v.
-const MARK: f32 = 0.042;
+const MARK: f32 = 0.036;
 
 /// The band of light round the head: marks along the strands that taper to both ends, shorter towards the borders of a lock.
 /// Red: their core. Green: a paler breath round them. Blue: strands. Every lock crosses the same height of the head where v is
@@ -81,29 +83,21 @@ const MARK: f32 = 0.042;
 pub(super) fn highlight() -> Picture {
     Picture::from_fn(2048, 1024, |uv| {
         let (strip, across) = strip(uv.x);
-        let size = MARK * [1.0, 0.8, 0.85, 0.65, 0.3, 0.0][strip];
         let edge = (across - 0.5) * 2.0;
-        let mark = |cells: f32, seed: u32| {
-            let cell = (uv.x * cells).floor();
-            let x = (uv.x * cells - cell - 0.5).abs() * 2.0;
-            let [long, shift] = [seed, seed + 1].map(|s| hash(cell as u32, 3, s));
-            let swell = noise(Vec2::new(uv.x * 14.0, 0.5), [14, 4], seed + 2);
-            let half = size * (0.15 + 0.75 * long + 0.5 * swell) * (1.0 - edge.abs().powf(2.4)) * (1.0 - x.powf(1.6));
-            // It runs up where a lock turns away, so that each has an arc of its own.
-            let off = uv.y - (BAND_V + 0.07 - 0.03 * edge * edge + 0.014 * (shift - 0.5));
-            // Points below are longer than those above.
-            (half, if off > 0.0 { off * 0.8 } else { off * -1.3 })
-        };
-        let (mut core, mut breath) = (0.0f32, 0.0f32);
-        // Broad marks and fine ones between them.
-        for (cells, seed) in [(41.0, 5), (67.0, 9)] {
-            let (half, off) = mark(cells, seed);
-            let inside = off / half.max(1e-4);
-            core = core.max(smoothstep(1.0, 0.75, inside) * smoothstep(0.001, 0.005, half));
-            breath = breath.max(smoothstep(2.2, 0.6, inside));
-        }
-        let strand = 0.3 * (strands(uv, 160.0, 10) * 0.5 + 0.5);
-        [0.6 * core, 0.7 * breath, strand, 1.0]
+        // One lens for each lock, its ends drawn out along the strands.
+        let low = noise(Vec2::new(uv.x * 24.0, 0.5), [24, 4], 5);
+        let strand = noise(Vec2::new(uv.x * 90.0, 0.5), [90, 4], 6);
+        let half = MARK * [1.0, 0.8, 0.85, 0.6, 0.3, 0.5, 0.0][strip] * (1.0 - edge.abs().powf(2.2)).max(0.0)
+            * (0.35 + 0.75 * low + 0.5 * (strand - 0.5));
+        // It runs up where a lock turns away, so that each has an arc of its own.
+        let off = uv.y - (BAND_V + 0.07 - 0.03 * edge * edge + 0.012 * (low - 0.5));
+        // Points below are longer than those above.
+        let inside = if off > 0.0 { off * 0.75 } else { off * -1.35 } / half.max(1e-4);
+        // Few gaps.
+        let gap = smoothstep(0.1, 0.2, (noise(Vec2::new(uv.x * 44.0, 0.5), [44, 4], 7) - 0.42).abs());
+        let core = smoothstep(1.0, 0.85, inside + 0.6 * (1.0 - gap)) * smoothstep(0.002, 0.007, half);
+        let breath = smoothstep(2.4, 0.5, inside);
+        [0.58 * core, 0.75 * breath, 0.3 * strand, 1.0]
     })
 }
 
