@@ -101,7 +101,7 @@ pub(super) fn build() -> Vec<Placed> {
             guide: guide(&fall),
             width,
             thickness: 0.015,
-            root: 0.4,
+            root: 0.62,
             belly: 0.55,
             // Each lies over its neighbour with one edge.
             roll: [0.09, 0.4 * vary(i, 3)],

@@ -4,7 +4,7 @@
 use glam::{Vec2, Vec3};
 
 use super::lock::{BAND_V, INNER, STRIPS, UNDER};
-use crate::picture::{Picture, noise, rgb, smoothstep};
+use crate::picture::{Picture, hash, noise, rgb, smoothstep};
 
 fn mix(a: Vec3, b: Vec3, t: f32) -> Vec3 {
     a + (b - a) * t.clamp(0.0, 1.0)
@@ -38,7 +38,7 @@ fn paint(tones: &Tones) -> Picture {
     Picture::from_fn(2048, 1024, move |uv| {
         let (strip, across) = strip(uv.x);
         let v = uv.y + 0.03 * strands(Vec2::new(uv.x, 0.3), 48.0, 3);
-        let mut color = mix(root, middle, smoothstep(-0.02, 0.21, v));
+        let mut color = mix(root, middle, smoothstep(-0.02, 0.25, v));
         color = mix(color, tip, smoothstep(0.56, 1.0, v));
         match strip {
             UNDER => color = mix(color, inner, 0.4),
@@ -78,26 +78,29 @@ pub(super) fn shade() -> Picture {
 const MARK: f32 = 0.036;
 
 /// The band of light round the head: marks along the strands that taper to both ends, shorter towards the borders of a lock.
-/// Red: their core. Green: a paler breath round them. Blue: strands. Every lock crosses the same height of the head where v is
+/// Red: their core. Green: a breath round them. Every lock crosses the same height of the head where v is
 /// 0.3; the band stands a little lower, because view and light from the front move it up.
 pub(super) fn highlight() -> Picture {
     Picture::from_fn(2048, 1024, |uv| {
         let (strip, across) = strip(uv.x);
         let edge = (across - 0.5) * 2.0;
-        // One lens for each lock, its ends drawn out along the strands.
-        let low = noise(Vec2::new(uv.x * 24.0, 0.5), [24, 4], 5);
-        let strand = noise(Vec2::new(uv.x * 90.0, 0.5), [90, 4], 6);
-        let half = MARK * [1.0, 0.8, 0.85, 0.6, 0.3, 0.5, 0.0][strip] * (1.0 - edge.abs().powf(2.2)).max(0.0)
-            * (0.35 + 0.75 * low + 0.5 * (strand - 0.5));
+        // One lens for each lock, of marks that taper along the strands.
+        let lens = MARK * [1.0, 0.85, 0.85, 0.65, 0.3, 0.0, 0.0][strip] * (1.0 - edge.abs().powf(2.2)).max(0.0);
+        let low = noise(Vec2::new(uv.x * 20.0, 0.5), [20, 4], 5);
+        let point = |cells: f32, seed: u32| {
+            let cell = (uv.x * cells).floor();
+            let x = (uv.x * cells - cell - 0.5).abs() * 2.0;
+            hash(cell as u32, 3, seed).powf(1.5) * (1.0 - x * x)
+        };
+        let [above, below] = [8, 9].map(|seed| point(58.0, seed).max(0.7 * point(89.0, seed + 4)));
         // It runs up where a lock turns away, so that each has an arc of its own.
-        let off = uv.y - (BAND_V + 0.07 - 0.03 * edge * edge + 0.012 * (low - 0.5));
-        // Points below are longer than those above.
-        let inside = if off > 0.0 { off * 0.75 } else { off * -1.35 } / half.max(1e-4);
-        // Few gaps.
-        let gap = smoothstep(0.1, 0.2, (noise(Vec2::new(uv.x * 44.0, 0.5), [44, 4], 7) - 0.42).abs());
-        let core = smoothstep(1.0, 0.85, inside + 0.6 * (1.0 - gap)) * smoothstep(0.002, 0.007, half);
-        let breath = smoothstep(2.4, 0.5, inside);
-        [0.58 * core, 0.75 * breath, 0.3 * strand, 1.0]
+        let off = uv.y - (BAND_V + 0.07 - 0.03 * edge * edge + 0.01 * (low - 0.5));
+        let long = |points: f32| lens * (0.2 + 0.35 * low + 0.75 * points);
+        let half = if off > 0.0 { long(below) * 1.25 } else { long(above) * 0.8 };
+        let inside = off.abs() / half.max(1e-4);
+        let core = smoothstep(1.0, 0.8, inside) * smoothstep(0.001, 0.006, lens);
+        let breath = smoothstep(2.2, 0.4, off.abs() / (lens * 0.7).max(1e-4));
+        [0.46 * core, 0.7 * breath, 0.0, 1.0]
     })
 }
 
