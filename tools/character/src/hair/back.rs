@@ -28,10 +28,12 @@ fn guide(fall: &Fall) -> Vec<Vec3> {
     let last = 90.0 + 17.0 * around.to_radians().cos() - 14.0;
     let mut guide: Vec<Vec3> =
         [0.0, 0.2, 0.4, 0.6, 0.8, 1.0].map(|t| rooted(around, start + (last - start) * t, start, lift)).to_vec();
-    let steps = (((TOP - tip) / 0.06).round() as u32).max(4);
+    // Beside the ears the curtain turns back: the locks take their time for it.
+    let top = TOP - 0.035 * smoothstep(0.6, 1.0, across.abs());
+    let steps = (((top - tip) / 0.06).round() as u32).max(4);
     for k in 0..=steps {
         let t = k as f32 / steps as f32;
-        let y = TOP + (tip - TOP) * t;
+        let y = top + (tip - top) * t;
         // Neighbours wave together, but for a little.
         let below = TOP - y;
         let free = smoothstep(0.0, 0.26, below);
@@ -140,7 +142,7 @@ pub(super) fn build() -> Vec<Placed> {
         let fall = Fall {
             across,
             tip: 0.93 + 0.24 * hash(i, 1, 31),
-            lift: 0.016,
+            lift: 0.021 - 0.009 * smoothstep(0.8, 1.1, across.abs()),
             curl: [0.3 * vary(i, 34), 0.012 + 0.014 * hash(i, 2, 33)],
             start: 30.0,
             id: i + 60,

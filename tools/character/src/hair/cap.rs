@@ -9,7 +9,7 @@ use crate::picture::smoothstep;
 use crate::skeleton::Skeleton;
 
 const AROUND: u32 = 48;
-const DOWN: u32 = 16;
+const DOWN: u32 = 15;
 
 /// Where the hairline runs, degrees from the whorl: high over the forehead, low at the nape.
 fn hairline(around: f32) -> f32 {

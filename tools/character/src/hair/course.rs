@@ -103,7 +103,7 @@ impl Course {
             } else {
                 0.0
             };
-            effort.push(effort[i] + a.length() * (1.0 + 0.6 * self.lengths[i] / self.total()) + 0.07 * bend);
+            effort.push(effort[i] + a.length() * (1.0 + 0.6 * self.lengths[i] / self.total()) + 0.13 * bend);
         }
         (0..count)
             .map(|s| {

@@ -68,7 +68,7 @@ fn section(width: f32, strip: usize) -> (Vec<Corner>, Vec<Corner>) {
     };
     let inner = vec![[1.0, 0.0], [0.0, -0.3], [-1.0, 0.0]];
     match width {
-        _ if strip == INNER => ([arc(5), vec![[0.0, -0.3]]].concat(), Vec::new()),
+        w if strip == INNER || strip == THIN && w > 0.006 => ([arc(5), vec![[0.0, -0.4]]].concat(), Vec::new()),
         w if w > 0.0135 => (arc(9), inner),
         w if w > 0.0065 => (arc(7), inner),
         _ => (vec![[-1.0, 0.0], [0.0, 1.0], [1.0, 0.0], [0.0, -0.5]], Vec::new()),
@@ -106,7 +106,8 @@ impl Lock {
                 let [p, along, across, out] = course.frame(t.min(1.0), self.roll[0] + self.roll[1] * t.min(1.0));
                 let beyond = along * (t - 1.0).max(0.0) * course.total();
                 // It starts inside the parent and comes out beside its ridge.
-                let offset = side * self.width * self.profile(t.min(0.8)) * (0.3 + 0.5 * s) + side.signum() * spread * s * s;
+                let offset =
+                    side * self.width * self.profile(t.min(0.8)) * (0.3 + 0.5 * s) + side.signum() * spread * s * s;
                 p + beyond + across * offset + out * self.thickness * (0.25 * s.min(0.5) - 0.1)
             })
             .collect();
@@ -126,8 +127,12 @@ impl Lock {
         let course = Course::new(&self.guide);
         let v = wrap(&course);
         let (outer, inner) = section(self.width, self.strip);
-        let (spacing, least) = if self.width > 0.0135 { (0.022, 18) } else { (0.025, 14) };
-        let stations = course.stations(((course.total() / spacing).ceil() as usize).clamp(least, 26));
+        let (spacing, least, most) = match self.width {
+            w if w > 0.0135 => (0.022, 18, 28),
+            w if w > 0.0065 => (0.025, 14, 26),
+            _ => (0.03, 14, 20),
+        };
+        let stations = course.stations(((course.total() / spacing).ceil() as usize).clamp(least, most));
         let mut add = |p: Vec3, u: f32, t: f32, tangent: Vec3| {
             let i = part.vertex(p, Vec2::new(u, v(t)), weights(skeleton, chain, p));
             part.tangents.push(tangent.extend(1.0));
@@ -183,6 +188,10 @@ fn wrap(course: &Course) -> impl Fn(f32) -> f32 {
         let (below, rest) = ((t - ring) * total, (1.0 - ring) * total);
         let reach = BAND_REACH.min(0.35 * rest);
         let v = BAND_V + BAND_PACE * reach;
-        if below < reach { BAND_V + BAND_PACE * below } else { v + (1.0 - v) * (below - reach) / (rest - reach) }
+        if below < reach {
+            BAND_V + BAND_PACE * below
+        } else {
+            v + (1.0 - v) * (below - reach) / (rest - reach)
+        }
     }
 }

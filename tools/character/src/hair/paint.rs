@@ -41,7 +41,7 @@ fn paint(tones: &Tones) -> Picture {
         let mut color = mix(root, middle, smoothstep(-0.02, 0.25, v));
         color = mix(color, tip, smoothstep(0.56, 1.0, v));
         match strip {
-            UNDER => color = mix(color, inner, 0.4),
+            UNDER => color = mix(color, inner, 0.28),
             INNER => color = mix(inner, color, 0.12),
             _ => {}
         }
@@ -96,7 +96,11 @@ pub(super) fn highlight() -> Picture {
         // It runs up where a lock turns away, so that each has an arc of its own.
         let off = uv.y - (BAND_V + 0.07 - 0.03 * edge * edge + 0.01 * (low - 0.5));
         let long = |points: f32| lens * (0.2 + 0.35 * low + 0.75 * points);
-        let half = if off > 0.0 { long(below) * 1.25 } else { long(above) * 0.8 };
+        let half = if off > 0.0 {
+            long(below) * 1.25
+        } else {
+            long(above) * 0.8
+        };
         let inside = off.abs() / half.max(1e-4);
         let core = smoothstep(1.0, 0.8, inside) * smoothstep(0.001, 0.006, lens);
         let breath = smoothstep(2.2, 0.4, off.abs() / (lens * 0.7).max(1e-4));
