@@ -25,7 +25,7 @@ fn guide(fall: &Fall) -> Vec<Vec3> {
     let &Fall { across, tip, lift, curl, start, id } = fall;
     let around = 180.0 - across * 88.0;
     // The equator of the head as seen from the whorl.
-    let last = 90.0 + 17.0 * around.to_radians().cos() - 14.0;
+    let last = 90.0 + 17.0 * around.to_radians().cos() - 4.0 - 10.0 * around.to_radians().sin().abs();
     let mut guide: Vec<Vec3> =
         [0.0, 0.2, 0.4, 0.6, 0.8, 1.0].map(|t| rooted(around, start + (last - start) * t, start, lift)).to_vec();
     // Beside the ears the curtain turns back: the locks take their time for it.
@@ -39,7 +39,8 @@ fn guide(fall: &Fall) -> Vec<Vec3> {
         let free = smoothstep(0.0, 0.26, below);
         let phase = below * 13.5 + 1.3 * across + 0.5 * vary(id, 4);
         let sway = 0.15 * free * phase.sin();
-        let swell = 0.01 * free * (phase * 1.2 + 1.0).sin();
+        // Over the collar out, at the waist in.
+        let swell = -0.014 * free * (phase * 1.2 + 1.0).sin();
         let end = smoothstep(0.66, 1.0, t).powf(1.5);
         let up = 0.012 * end * (curl[0].abs() * 8.0).min(1.0);
         guide.push(hang(across + sway + curl[0] * end, y + up, lift + swell + curl[1] * end));
@@ -59,10 +60,10 @@ fn chain(across: f32) -> &'static str {
 
 /// Large clumps: place across, tip, half width, lift, curl.
 const LARGE: &[(f32, f32, f32, f32, f32)] = &[
-    (-1.02, 1.04, 0.032, 0.0045, -0.28),
-    (-0.7, 0.95, 0.037, 0.0065, 0.26),
-    (-0.33, 1.01, 0.042, 0.005, -0.22),
-    (0.07, 0.925, 0.034, 0.0075, 0.3),
+    (-0.98, 1.04, 0.035, 0.0045, -0.28),
+    (-0.61, 0.95, 0.039, 0.0065, 0.26),
+    (-0.235, 1.01, 0.043, 0.005, -0.22),
+    (0.065, 0.925, 0.039, 0.0075, 0.3),
     (0.42, 0.995, 0.041, 0.0055, -0.26),
     (0.75, 0.945, 0.034, 0.007, 0.24),
     (1.03, 1.045, 0.033, 0.0045, 0.3),
@@ -117,7 +118,7 @@ pub(super) fn build() -> Vec<Placed> {
     }
     // Over the borders, shorter.
     for i in 0..6u32 {
-        let across = -0.88 + 1.76 * i as f32 / 5.0 + 0.09 * vary(i, 13);
+        let across = -0.88 + 1.76 * i as f32 / 5.0 + 0.09 * vary(i, 43);
         let fall = Fall {
             across,
             tip: 1.06 + 0.15 * hash(i, 3, 16),
@@ -142,8 +143,9 @@ pub(super) fn build() -> Vec<Placed> {
         let fall = Fall {
             across,
             tip: 0.93 + 0.24 * hash(i, 1, 31),
-            lift: 0.021 - 0.009 * smoothstep(0.8, 1.1, across.abs()),
-            curl: [0.3 * vary(i, 34), 0.012 + 0.014 * hash(i, 2, 33)],
+            // Hidden down to where they leave.
+            lift: 0.007,
+            curl: [0.3 * vary(i, 34), 0.022 + 0.014 * hash(i, 2, 33)],
             start: 30.0,
             id: i + 60,
         };

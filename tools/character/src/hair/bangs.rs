@@ -12,11 +12,11 @@ struct Bang([f32; 2], f32, [f32; 2], f32, f32, f32, usize);
 
 /// From her right to her left.
 const LARGE: &[Bang] = &[
-    Bang([-50.0, -58.0], -0.083, [-0.0645, 1.374], 0.0175, 0.0075, 0.003, 1),
+    Bang([-50.0, -58.0], -0.083, [-0.0585, 1.382], 0.0175, 0.0075, 0.003, 1),
     Bang([-6.0, -30.0], -0.0455, [-0.027, 1.4305], 0.0285, 0.0085, 0.0055, 0),
     Bang([10.0, -4.0], -0.0105, [0.0055, 1.406], 0.0135, 0.007, 0.0085, 2),
     Bang([16.0, 21.0], 0.0345, [0.0245, 1.4335], 0.0245, 0.0085, 0.006, 1),
-    Bang([36.0, 48.0], 0.079, [0.0615, 1.38], 0.0175, 0.0075, 0.0035, 0),
+    Bang([36.0, 48.0], 0.079, [0.0565, 1.388], 0.0175, 0.0075, 0.0035, 0),
 ];
 
 /// Forks: which large lock, where they leave it, side, spread, length, half width.
@@ -61,7 +61,7 @@ fn guide(&Bang([whorl, root], brow, [x, y], width, _, lift, _): &Bang) -> Vec<Ve
         Vec3::new(brow, fall + (1.487 - fall) * 0.35, before_face(brow, 0.0125 + 0.5 * lift)),
         // Out at the brow, in at the tip.
         Vec3::new(brow + (x - brow) * 0.3, fall + (y - fall) * 0.35, before_face(brow, 0.0118 + 0.4 * lift)),
-        Vec3::new(x, y, before_face(x, 0.006 - 0.006 * smoothstep(0.045, 0.06, x.abs()))),
+        Vec3::new(x, y, before_face(x, 0.006 - 0.003 * smoothstep(0.045, 0.06, x.abs()))),
     ]);
     guide
 }

@@ -61,7 +61,7 @@ fn section(width: f32, strip: usize) -> (Vec<Corner>, Vec<Corner>) {
     let arc = |columns: usize| {
         (0..columns)
             .map(|i| {
-                let x = (std::f32::consts::PI * i as f32 / (columns - 1) as f32).cos() * -1.0;
+                let x = -(std::f32::consts::PI * i as f32 / (columns - 1) as f32).cos();
                 [x, (1.0 - x * x).max(0.0).powf(0.62)]
             })
             .collect::<Vec<_>>()

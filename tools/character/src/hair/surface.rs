@@ -23,14 +23,19 @@ pub(super) fn direction(around: f32, down: f32) -> Vec3 {
 
 /// Point over the shell, `lift` metres outwards. Hair stands off the head: most over the crown.
 pub(super) fn shell(around: f32, down: f32, lift: f32) -> Vec3 {
-    let volume = 0.0185 + 0.0075 * smoothstep(95.0, 20.0, down);
+    let behind = 0.5 - 0.5 * around.to_radians().cos();
+    let volume = 0.0185
+        + 0.0075 * smoothstep(95.0, 20.0, down)
+        + 0.003 * behind * smoothstep(-10.0, 25.0, down) * smoothstep(95.0, 60.0, down);
     skull(direction(around, down), volume + lift)
 }
 
 /// Where a lock leaves the cap: from inside of it at `start` degrees from the whorl up to `lift`.
 pub(super) fn rooted(around: f32, down: f32, start: f32, lift: f32) -> Vec3 {
     const DEEP: f32 = 0.007;
-    shell(around, down, -DEEP + (lift + DEEP) * smoothstep(start, start + 46.0, down))
+    // The way to the equator is shorter behind.
+    let way = 45.0 + 7.0 * around.to_radians().cos();
+    shell(around, down, -DEEP + (lift + DEEP) * smoothstep(start, start + way, down))
 }
 
 /// A number in -1..1 that belongs to a lock.
