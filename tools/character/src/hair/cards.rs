@@ -3,8 +3,7 @@
 use glam::{Vec2, Vec3};
 
 use super::chains::{Chain, weights};
-use super::style::direction;
-use crate::head::shape::skull;
+use super::surface::rooted;
 use crate::mesh::Part;
 use crate::picture::hash;
 use crate::skeleton::Skeleton;
@@ -19,7 +18,7 @@ pub(super) fn build<'a>(skeleton: &Skeleton, chain: impl Fn(&str) -> Option<&'a 
         let around = 42.0 + (360.0 - 84.0) * (i as f32 + 0.5) / 28.0;
         let long = 0.5 + 0.5 * hash(i, 1, 51);
         let end = 74.0 + 20.0 * long;
-        let lift = 0.0275 + 0.004 * hash(i, 2, 51);
+        let lift = 0.0165 + 0.004 * hash(i, 2, 51);
         let half = 0.009 + 0.005 * hash(i, 3, 51);
         let first = part.vertices.len() as u32;
         let name = if around > 180.0 {
@@ -30,7 +29,7 @@ pub(super) fn build<'a>(skeleton: &Skeleton, chain: impl Fn(&str) -> Option<&'a 
         let strip = (i % 4) as f32 * 0.25;
         for r in 0..ROWS {
             let t = r as f32 / (ROWS - 1) as f32;
-            let at = |down: f32, drift: f32| skull(direction(around + drift, down), lift - 0.004 * (1.0 - t));
+            let at = |down: f32, drift: f32| rooted(around + drift, down, 12.0, lift);
             let down = 22.0 + (end - 22.0) * t;
             let p = at(down, 6.0 * t * (hash(i, 4, 51) - 0.5));
             let along = (at(down + 1.0, 0.0) - at(down - 1.0, 0.0)).normalize();

@@ -1,18 +1,32 @@
-//! A lock of hair: a lens-shaped tube lofted along a guide curve, wide in its middle and sharp at its tip.
+//! A lock of hair: a tube of lens-shaped sections lofted along a guide curve, wide in its middle and sharp at its tip.
 
 use glam::{Vec2, Vec3};
 
-use super::chains::Chain;
-use crate::head::shape::SKULL_CENTER;
+use super::chains::{Chain, weights};
+use super::course::Course;
 use crate::mesh::Part;
+use crate::picture::smoothstep;
 use crate::skeleton::Skeleton;
 
-/// Vertices of a cross-section.
-const RING: u32 = 6;
 /// Texture coordinate v at which every lock crosses the ring of light on the head.
 pub(super) const BAND_V: f32 = 0.3;
-/// Height of that ring at the front of the head and at its back, metres.
-const BAND_Y: [f32; 2] = [1.503, 1.492];
+/// How fast v grows below the ring, 1/m, and how far: there the light is as wide on every lock.
+const BAND_PACE: f32 = 3.0;
+const BAND_REACH: f32 = 0.07;
+/// Texture coordinate v of the root of a lock that starts below the ring.
+const LOW_V: f32 = 0.58;
+/// Strips of the texture: where each starts and ends in u. Two for large locks, two for middle ones, one for thin ones, one
+/// for the lower layer of the bangs, one for what lies inside.
+pub(super) const STRIPS: [[f32; 2]; 7] =
+    [[0.0, 0.2], [0.2, 0.4], [0.4, 0.53], [0.53, 0.66], [0.66, 0.72], [0.72, 0.87], [0.87, 1.0]];
+/// The strip of thin locks.
+pub(super) const THIN: usize = 4;
+/// The strip of lower layers.
+pub(super) const UNDER: usize = 5;
+/// The dark strip.
+pub(super) const INNER: usize = 6;
+/// Radius of the body of hair that sections bend round, metres.
+const ROUND: f32 = 0.1;
 
 /// A lock.
 #[derive(Clone, Debug)]
@@ -27,44 +41,38 @@ pub(super) struct Lock {
     pub(super) root: f32,
     /// Where it is widest, 0 root .. 1 tip.
     pub(super) belly: f32,
-    /// Turn about its own axis from root to tip, radians.
-    pub(super) twist: f32,
-    /// Strip of the texture: 0..=2, or 3 for the dark one of lower layers.
-    pub(super) strip: u32,
+    /// Turn about its own axis at the root, and more of it up to the tip, radians.
+    pub(super) roll: [f32; 2],
+    /// Strip of the texture.
+    pub(super) strip: usize,
 }
 
 impl Default for Lock {
     fn default() -> Self {
-        Self { guide: Vec::new(), width: 0.014, thickness: 0.006, root: 0.55, belly: 0.4, twist: 0.0, strip: 0 }
+        Self { guide: Vec::new(), width: 0.014, thickness: 0.006, root: 0.5, belly: 0.45, roll: [0.0; 2], strip: 2 }
     }
 }
 
-/// Point of a centripetal-like Catmull-Rom curve through the guide, `t` in 0..1.
-fn along(guide: &[Vec3], t: f32) -> Vec3 {
-    let last = guide.len() as isize - 1;
-    let at = t.clamp(0.0, 1.0) * last as f32;
-    let i = (at.floor() as isize).clamp(0, last - 1);
-    let get = |k: isize| {
-        if k < 0 {
-            guide[0] * 2.0 - guide[1]
-        } else if k > last {
-            guide[last as usize] * 2.0 - guide[last as usize - 1]
-        } else {
-            guide[k as usize]
-        }
-    };
-    let (a, b, c, d, t) = (get(i - 1), get(i), get(i + 1), get(i + 2), at - i as f32);
-    0.5 * (2.0 * b + (c - a) * t + (2.0 * a - 5.0 * b + 4.0 * c - d) * t * t + (3.0 * b - a - 3.0 * c + d) * t * t * t)
-}
+/// A vertex of a section: place across (-1..1), height over the guide, both as shares.
+type Corner = [f32; 2];
 
-/// Away from the head, and below it away from the neck.
-fn outward(p: Vec3) -> Vec3 {
-    let from = if p.y > SKULL_CENTER.y {
-        SKULL_CENTER
-    } else {
-        Vec3::new(0.0, p.y, -0.02)
+/// The outer side of a section from edge to edge, and the inner one back. Thin locks are one ring.
+fn section(width: f32, strip: usize) -> (Vec<Corner>, Vec<Corner>) {
+    let arc = |columns: usize| {
+        (0..columns)
+            .map(|i| {
+                let x = -(std::f32::consts::PI * i as f32 / (columns - 1) as f32).cos();
+                [x, (1.0 - x * x).max(0.0).powf(0.62)]
+            })
+            .collect::<Vec<_>>()
     };
-    (p - from).normalize_or(Vec3::Z)
+    let inner = vec![[1.0, 0.0], [0.0, -0.3], [-1.0, 0.0]];
+    match width {
+        w if strip == INNER || strip == THIN && w > 0.006 => ([arc(5), vec![[0.0, -0.4]]].concat(), Vec::new()),
+        w if w > 0.0135 => (arc(9), inner),
+        w if w > 0.0065 => (arc(7), inner),
+        _ => (vec![[-1.0, 0.0], [0.0, 1.0], [1.0, 0.0], [0.0, -0.5]], Vec::new()),
+    }
 }
 
 impl Lock {
@@ -73,103 +81,117 @@ impl Lock {
         let rise = (t / self.belly).min(1.0);
         let rise = self.root + (1.0 - self.root) * rise * rise * (3.0 - 2.0 * rise);
         let fall = ((t - self.belly) / (1.0 - self.belly)).max(0.0);
-        rise * (1.0 - fall.powf(1.55)).max(0.0).powf(0.9)
+        rise * (1.0 - fall.powf(1.7)).max(0.0)
+    }
+
+    /// Point of the section at `t`.
+    fn place(&self, course: &Course, t: f32, [x, height]: Corner) -> Vec3 {
+        let [p, _, side, out] = course.frame(t, self.roll[0] + self.roll[1] * t);
+        let share = self.profile(t);
+        let w = self.width * share * x;
+        // Roots are flat, so that they come out of the cap without a step.
+        let h = self.thickness * share.powf(0.75) * (0.15 + 0.85 * smoothstep(0.01, 0.13, t * course.total())) * height;
+        p + side * w + out * (h - (w * w / (2.0 * ROUND)).min(0.008))
+    }
+
+    /// A lock that leaves this one: `from` where on it, to which `side` (-1..1, across), `spread` metres away at its tip,
+    /// which lies `reach` of the length from the root.
+    pub(super) fn fork(&self, from: f32, side: f32, spread: f32, reach: f32, width: f32) -> Self {
+        const POINTS: usize = 6;
+        let course = Course::new(&self.guide);
+        let guide = (0..POINTS)
+            .map(|i| {
+                let s = i as f32 / (POINTS - 1) as f32;
+                let t = from + (reach - from) * s;
+                let [p, along, across, out] = course.frame(t.min(1.0), self.roll[0] + self.roll[1] * t.min(1.0));
+                let beyond = along * (t - 1.0).max(0.0) * course.total();
+                // It starts inside the parent and comes out beside its ridge.
+                let offset =
+                    side * self.width * self.profile(t.min(0.8)) * (0.3 + 0.5 * s) + side.signum() * spread * s * s;
+                p + beyond + across * offset + out * self.thickness * (0.25 * s.min(0.5) - 0.1)
+            })
+            .collect();
+        Self {
+            guide,
+            width,
+            thickness: (self.thickness * 0.8).min(width * 0.6),
+            root: 0.3,
+            belly: 0.5,
+            roll: [self.roll[0] + self.roll[1] * from + side * 0.25, self.roll[1] * 0.5],
+            strip: if width > 0.0065 { 2 + self.strip % 2 } else { THIN },
+        }
     }
 
     /// Adds the lock; `chain` moves its free end.
     pub(super) fn build(&self, part: &mut Part, skeleton: &Skeleton, chain: Option<&Chain>) {
-        const SAMPLES: usize = 64;
-        let dense: Vec<Vec3> = (0..=SAMPLES).map(|i| along(&self.guide, i as f32 / SAMPLES as f32)).collect();
-        let mut lengths = vec![0.0];
-        for pair in dense.windows(2) {
-            lengths.push(lengths[lengths.len() - 1] + pair[0].distance(pair[1]));
-        }
-        let total = lengths[SAMPLES];
-        // The last crossing of the ring, as a share of the length.
-        let band = (0..SAMPLES)
-            .rfind(|i| {
-                let ring = |p: Vec3| p.y - (BAND_Y[1] + (BAND_Y[0] - BAND_Y[1]) * ((p.z + 0.11) / 0.2).clamp(0.0, 1.0));
-                ring(dense[*i]) >= 0.0 && ring(dense[i + 1]) < 0.0
-            })
-            .map_or(BAND_V, |i| (lengths[i] / total).clamp(0.05, 0.9));
-        let at_length = |share: f32| {
-            let want = share * total;
-            let i = lengths.iter().rposition(|l| *l <= want).unwrap_or(0).min(SAMPLES - 1);
-            let t = (want - lengths[i]) / (lengths[i + 1] - lengths[i]).max(1e-9);
-            dense[i] + (dense[i + 1] - dense[i]) * t
+        let course = Course::new(&self.guide);
+        let v = wrap(&course);
+        let (outer, inner) = section(self.width, self.strip);
+        let (spacing, least, most) = match self.width {
+            w if w > 0.0135 => (0.022, 18, 28),
+            w if w > 0.0065 => (0.025, 14, 26),
+            _ => (0.03, 14, 20),
         };
-
-        let stations = ((total / 0.024).ceil() as u32).clamp(14, 22);
-        let first = part.vertices.len() as u32;
-        let (u0, u1) = (self.strip as f32 * 0.25 + 0.006, self.strip as f32 * 0.25 + 0.244);
-        // Stations stand denser where the lock bends, and towards its tip.
-        let mut effort = vec![0.0];
-        for i in 0..SAMPLES {
-            let (a, b) = (dense[i + 1] - dense[i], dense[(i + 2).min(SAMPLES)] - dense[(i + 1).min(SAMPLES - 1)]);
-            let bend = if a.length_squared() > 0.0 && b.length_squared() > 0.0 {
-                a.angle_between(b)
-            } else {
-                0.0
-            };
-            effort.push(effort[i] + a.length() * (1.0 + 0.35 * lengths[i] / total) + 0.12 * bend);
+        let stations = course.stations(((course.total() / spacing).ceil() as usize).clamp(least, most));
+        let mut add = |p: Vec3, u: f32, t: f32, tangent: Vec3| {
+            let i = part.vertex(p, Vec2::new(u, v(t)), weights(skeleton, chain, p));
+            part.tangents.push(tangent.extend(1.0));
+            i
+        };
+        // u by the place across, a little inside of the strip.
+        let u = |strip: usize, x: f32| {
+            let [from, to] = STRIPS[strip];
+            from + (to - from) * (0.5 + 0.48 * x)
+        };
+        let [start, end] = [0.0, 1.0].map(|t| course.frame(t, 0.0));
+        // The root is closed before the first section, so that v grows from it.
+        let root = add(start[0] - start[1] * 0.001, u(self.strip, 0.0), -0.01, start[1]);
+        let mut fans = Vec::new();
+        for (corners, strip, closed) in [(&outer, self.strip, inner.is_empty()), (&inner, INNER, false)] {
+            if corners.is_empty() {
+                continue;
+            }
+            let columns = corners.len() as u32;
+            let mut first = None;
+            for t in &stations {
+                let tangent = course.frame(*t, 0.0)[1];
+                for corner in corners {
+                    let i = add(self.place(&course, *t, *corner), u(strip, corner[0]), *t, tangent);
+                    first.get_or_insert(i);
+                }
+            }
+            let tip = add(end[0], u(strip, 0.0), 1.0, end[1]);
+            fans.push((first.unwrap_or_default(), tip, columns, closed));
         }
-        for s in 0..stations {
-            let want = effort[SAMPLES] * s as f32 / (stations - 1) as f32;
-            let i = effort.iter().rposition(|e| *e <= want).unwrap_or(0).min(SAMPLES - 1);
-            let part_way = (want - effort[i]) / (effort[i + 1] - effort[i]).max(1e-9);
-            let t = 0.965 * (lengths[i] + (lengths[i + 1] - lengths[i]) * part_way.min(1.0)) / total;
-            let p = at_length(t);
-            let tangent = (at_length((t + 0.02).min(1.0)) - at_length((t - 0.02).max(0.0))).normalize();
-            let out = outward(p);
-            let out = (out - tangent * out.dot(tangent)).normalize_or(Vec3::Z);
-            let side = out.cross(tangent);
-            let (sin, cos) = (self.twist * t).sin_cos();
-            let (side, out) = (side * cos + out * sin, out * cos - side * sin);
-            let share = self.profile(t);
-            let (w, h) = (self.width * share, self.thickness * share.powf(0.7) * (0.55 + 0.45 * (t / 0.2).min(1.0)));
-            // Edges bend towards the head.
-            let sag = (w * w / 0.16).min(0.006);
-            let ring = [
-                (-w, -sag, 0.0),
-                (-0.56 * w, 0.62 * h - 0.3 * sag, 0.2),
-                (0.06 * w, h, 0.52),
-                (0.6 * w, 0.58 * h - 0.3 * sag, 0.8),
-                (w, -sag, 1.0),
-                (0.0, -0.22 * h - 0.35 * sag, 0.5),
-            ];
-            let v = if t < band {
-                BAND_V * t / band
-            } else {
-                BAND_V + (1.0 - BAND_V) * (t - band) / (1.0 - band)
-            };
-            for (x, y, u) in ring {
-                let q = p + side * x + out * y;
-                part.vertex(q, Vec2::new(u0 + (u1 - u0) * u, v), super::chains::weights(skeleton, chain, q));
-                part.tangents.push(tangent.extend(1.0));
+        for (first, tip, columns, closed) in fans {
+            let rows = stations.len() as u32;
+            part.quads(first, rows, columns, closed);
+            let last = first + (rows - 1) * columns;
+            for i in 0..if closed { columns } else { columns - 1 } {
+                let next = (i + 1) % columns;
+                part.triangles.push([last + i, tip, last + next]);
+                part.triangles.push([first + next, root, first + i]);
             }
         }
-        part.quads(first, stations, RING, true);
+    }
+}
 
-        let end = at_length(1.0);
-        let tangent = (end - at_length(0.97)).normalize();
-        let tip = part.vertex(end, Vec2::new((u0 + u1) * 0.5, 1.0), super::chains::weights(skeleton, chain, end));
-        part.tangents.push(tangent.extend(1.0));
-        let last = first + (stations - 1) * RING;
-        for i in 0..RING {
-            part.triangles.push([last + i, tip, last + (i + 1) % RING]);
+/// Texture coordinate v along a lock, by the share of its length.
+fn wrap(course: &Course) -> impl Fn(f32) -> f32 {
+    let total = course.total();
+    let ring = course.ring();
+    move |t: f32| {
+        let Some(ring) = ring else { return LOW_V + (1.0 - LOW_V) * t };
+        if t < ring {
+            return BAND_V * t / ring;
         }
-        // The root is closed too; its middle lies a hair before the first ring, so that v grows from it.
-        let start = at_length(0.0);
-        let tangent = (at_length(0.02) - start).normalize();
-        let root = part.vertex(
-            start - tangent * 0.001,
-            Vec2::new((u0 + u1) * 0.5, -0.002),
-            super::chains::weights(skeleton, chain, start),
-        );
-        part.tangents.push(tangent.extend(1.0));
-        for i in 0..RING {
-            part.triangles.push([first + (i + 1) % RING, root, first + i]);
+        let (below, rest) = ((t - ring) * total, (1.0 - ring) * total);
+        let reach = BAND_REACH.min(0.35 * rest);
+        let v = BAND_V + BAND_PACE * reach;
+        if below < reach {
+            BAND_V + BAND_PACE * below
+        } else {
+            v + (1.0 - v) * (below - reach) / (rest - reach)
         }
-        debug_assert_eq!(part.tangents.len(), part.vertices.len(), "one tangent a vertex");
     }
 }

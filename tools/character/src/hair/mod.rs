@@ -1,11 +1,15 @@
 //! Hair: locks by role, a cap under them, cards of thin strands over them.
 
+mod back;
+mod bangs;
 mod cap;
 mod cards;
 mod chains;
+mod course;
 mod lock;
 mod paint;
-mod style;
+mod sides;
+mod surface;
 
 use std::collections::BTreeMap;
 
@@ -16,7 +20,7 @@ use crate::model::{Alpha, Material, Model, Texture, srgb};
 pub fn add(model: &mut Model) {
     let chains = chains::add(model);
     let chain = |name: &str| chains.iter().find(|(n, _)| n == name).map(|(_, c)| c);
-    for (name, locks) in [("HairFront", style::front()), ("HairSide", style::side()), ("HairBack", style::back())] {
+    for (name, locks) in [("HairFront", bangs::build()), ("HairSide", sides::build()), ("HairBack", back::build())] {
         let mut part = Part::new(name, name);
         if name == "HairBack" {
             cap::build(&mut part, &model.skeleton);
