@@ -6,9 +6,9 @@ use glam::Vec2;
 /// Inner and outer corner of the left eye, x and y.
 pub const CORNERS: [Vec2; 2] = [Vec2::new(0.0166, 1.402), Vec2::new(0.0592, 1.4078)];
 /// Middle of the left iris.
-pub const IRIS: Vec2 = Vec2::new(0.0374, 1.4114);
+pub const IRIS: Vec2 = Vec2::new(0.0375, 1.4132);
 /// Half axes of the iris.
-pub const IRIS_RADII: Vec2 = Vec2::new(0.0162, 0.0196);
+pub const IRIS_RADII: Vec2 = Vec2::new(0.0147, 0.0174);
 /// Height of the mouth's line in its middle.
 pub const MOUTH_Y: f32 = 1.3454;
 /// Half width of the closed mouth.
@@ -78,7 +78,7 @@ pub struct Face {
 fn upper_rest(s: f32) -> f32 {
     // Rises fast at the inner corner, flat on top, falls to the outer corner in a long line.
     let s = s.clamp(0.0, 1.0);
-    0.0232 * (1.0 - (1.0 - s).powf(3.4)).powf(0.72) * (1.0 - s.powf(3.0)).powf(0.78) * (1.08 - 0.12 * s)
+    0.0236 * (1.0 - (1.0 - s).powf(3.4)).powf(0.72) * (1.0 - s.powf(3.0)).powf(0.78) * (1.08 - 0.12 * s)
 }
 
 /// Depth of the open lower lid under the same line.
