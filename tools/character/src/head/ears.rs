@@ -40,8 +40,9 @@ fn left(skeleton: &Skeleton) -> Part {
         let wide = 0.0138 + 0.0036 * s;
         let tall = 0.0262 - 0.001 * below;
         let lobe = 0.006 * below * below;
-        // The lobe is flat and lies against the head.
-        let height = height - (height - 0.002).max(0.0) * 0.5 * below * below;
+        // Seen from the front it is round above, and its lobe lies against the head.
+        let round = (s * share).abs().powi(4) * if s < 0.0 { 0.9 } else { 0.65 };
+        let height = height - (height + 0.002).max(0.0) * round - (height - 0.002).max(0.0) * 0.3 * below;
         let flat = Vec3::new(height, s * tall * share, c * wide * share + lobe * share);
         // The front edge lies against the cheek.
         middle + turn * (flat - Vec3::X * 0.006 * (c * share).max(0.0))

@@ -30,7 +30,13 @@ pub(super) struct Sheet<'a> {
 impl Sheet<'_> {
     /// Adds a grid of vertices, `rows` × `columns`, given by a function of the state, the row and the column (0..1).
     /// Outside is where rows run to her left and the next row lies below.
-    pub(super) fn grid(&mut self, rows: u32, columns: u32, uv: impl Fn(f32, f32) -> Vec2, at: impl Fn(&Face, f32, f32) -> Vec3) {
+    pub(super) fn grid(
+        &mut self,
+        rows: u32,
+        columns: u32,
+        uv: impl Fn(f32, f32) -> Vec2,
+        at: impl Fn(&Face, f32, f32) -> Vec3,
+    ) {
         let first = self.part.vertices.len();
         let weights = self.skeleton.only("head");
         let place = |i: usize| {
@@ -74,7 +80,12 @@ fn layer(x: f32, y: f32, depth: f32) -> Vec3 {
 }
 
 /// Both sides of an eye part. `make` builds the left one; it is called with -1 for the one that will be mirrored.
-pub(super) fn both(name: &str, material: &'static str, skeleton: &Skeleton, make: impl Fn(&mut Sheet<'_>, f32)) -> Part {
+pub(super) fn both(
+    name: &str,
+    material: &'static str,
+    skeleton: &Skeleton,
+    make: impl Fn(&mut Sheet<'_>, f32),
+) -> Part {
     let [left, right] = [1.0, -1.0].map(|side| {
         let mut sheet = Sheet { skeleton, part: Part::new(name, material) };
         make(&mut sheet, side);

@@ -26,10 +26,19 @@ pub fn uv(p: Vec3, below_jaw: f32) -> Vec2 {
 
 /// Bones of the head and the neck.
 pub(super) fn weights(skeleton: &Skeleton, p: Vec3) -> Weights {
+    weights_with(skeleton, p, 1.0)
+}
+
+/// Most that the head holds of the skin under the jaw. Looks take what does not follow the head for neck, and that is where
+/// the shade of the neck begins.
+const UNDER_JAW: f32 = 0.83;
+
+/// With a limit to the share of the head.
+fn weights_with(skeleton: &Skeleton, p: Vec3, most: f32) -> Weights {
     let [head, neck, chest] = ["head", "neck", "upperChest"].map(|n| skeleton.find(n));
     // The skull tilts as a whole; only the neck bends.
     let axis = p.y + (p.z + 0.022) * 0.12;
-    let up = smoothstep(1.262, 1.318, axis);
+    let up = smoothstep(1.262, 1.318, axis).min(most);
     let low = 1.0 - smoothstep(1.212, 1.262, p.y);
     blend(&[(head, up), (neck, (1.0 - up) * (1.0 - low)), (chest, (1.0 - up) * low)])
 }
@@ -122,7 +131,8 @@ pub(super) fn build(skeleton: &Skeleton) -> [Part; 2] {
                 at = flat;
             }
             let p = Vec3::new(p.x * sign, p.y, p.z);
-            skin.vertex(p, at, weights(skeleton, p));
+            let most = if r > JAW { UNDER_JAW } else { 1.0 };
+            skin.vertex(p, at, weights_with(skeleton, p, most));
         }
     }
     let index = |r: usize, c: usize| (r * columns + c) as u32;

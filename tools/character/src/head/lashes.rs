@@ -12,11 +12,11 @@ use crate::skeleton::Skeleton;
 /// Height before the skin.
 const BEFORE: f32 = 0.0006;
 /// Thickness of the upper lash at the inner end, metres, and how many times that it is at the outer end.
-const THIN: f32 = 0.0019;
+const THIN: f32 = 0.0018;
 const HEAVY: f32 = 2.5;
 /// Where the wing of the upper lash leaves the lid, and where it ends, from the outer corner.
-const LEAVES: f32 = 0.8;
-const WING: Vec2 = Vec2::new(0.0082, 0.0052);
+const LEAVES: f32 = 0.85;
+const WING: Vec2 = Vec2::new(0.0062, 0.0034);
 
 /// Lids at `s`, which may lie a little beyond the corners.
 fn lid(eye: &Eye, s: f32, lower: bool) -> Vec2 {
@@ -47,8 +47,8 @@ fn bend(a: Vec2, b: Vec2, c: Vec2, t: f32) -> Vec2 {
 /// Lower and upper edge of the upper lash at `c`, 0 at its inner end and 1 at the tip of the wing.
 fn upper_edges(face: &Face, c: f32) -> [Vec2; 2] {
     /// Shares of the lash along which its upper and its lower edge follow the lid.
-    const UPPER: f32 = 0.62;
-    const LOWER: f32 = 0.8;
+    const UPPER: f32 = 0.68;
+    const LOWER: f32 = 0.84;
     let eye = &face.eyes[0];
     let asleep = eye.shut * (1.0 - eye.arch);
     let tip = CORNERS[1] + WING + Vec2::new(-0.0008, -0.0085) * asleep;
@@ -62,7 +62,7 @@ fn upper_edges(face: &Face, c: f32) -> [Vec2; 2] {
     } else {
         // Runs on in its own direction, then hollow to the tip.
         let (a, b) = (high(LEAVES), high(LEAVES - 0.04));
-        let along = (a - b).normalize() * a.distance(tip) * 0.55;
+        let along = (a - b).normalize() * a.distance(tip) * 0.45;
         bend(a, a + along, tip + Vec2::new(0.0002, 0.0003), (c - UPPER) / (1.0 - UPPER))
     };
     let lower = if c < LOWER {
@@ -130,7 +130,9 @@ fn brow(sheet: &mut Sheet<'_>) {
             let arch = 1.4425 + 0.009 * (c * 2.05).sin() - 0.0046 * c * c;
             let y = arch + lift[0] * l0 + lift[1] * l1 + lift[2] * l2;
             // Full at the inner end, which is cut round, and one long taper.
-            let width = 0.0052 * (c / 0.07).clamp(0.12, 1.0).sqrt() * (1.0 - c).clamp(0.01, 1.0).powf(0.75);
+            let width = 0.0048
+                * (1.0 - (1.0 - (c / 0.11).min(1.0)).powi(2)).max(0.02).sqrt()
+                * (1.0 - c).clamp(0.01, 1.0).powf(0.75);
             before(face, Vec2::new(x, y + width * (0.5 - r)), 0.0014)
         },
     );

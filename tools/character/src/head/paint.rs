@@ -63,7 +63,7 @@ pub(super) fn face() -> Picture {
         let n = (noise(uv * 24.0, [24, 24], 5) - 0.5) * 0.006;
         let skin = Vec3::new(r + n, g + n * 0.7, b + n * 0.7);
         // Behind the border of light that the jaw makes, so that the two edges are one.
-        let color = mix(skin, neck, smoothstep(0.001, 0.012, jaw.below(uv)));
+        let color = mix(skin, neck, smoothstep(0.005, 0.016, jaw.below(uv)));
         [color.x, color.y, color.z, a]
     });
     picture
