@@ -39,7 +39,7 @@ fn left(skeleton: &Skeleton) -> Part {
         let below = (-s).max(0.0);
         let wide = 0.0138 + 0.0036 * s;
         let tall = 0.0262 - 0.001 * below;
-        let lobe = 0.006 * below * below;
+        let lobe = 0.0025 * below * below;
         // Seen from the front it is round above, and its lobe lies against the head.
         let round = (s * share).abs().powi(4) * if s < 0.0 { 0.9 } else { 0.65 };
         let height = height - (height + 0.002).max(0.0) * round - (height - 0.002).max(0.0) * 0.3 * below;

@@ -191,7 +191,9 @@ fn edit_normals(skin: &mut Part, rows: &[(usize, usize)]) {
         let share = 0.9 * above_jaw * smoothstep(-0.03, 0.005, p.z);
         v.normal = v.normal.lerp(proxy_normal(p), share).normalize();
         let below = smoothstep(JAW as f32, JAW as f32 + 1.5, *r as f32);
-        let inward = Vec3::new(-p.x, 0.0, shape::NECK_Z - p.z).normalize_or_zero();
-        v.normal = v.normal.lerp((inward * 0.25 - Vec3::Y).normalize(), below).normalize();
+        // Down, and inwards as far as that does not gainsay the surface.
+        let flat = v.normal.with_y(0.0);
+        let outward = ((v.normal.y - 0.07) / flat.length_squared().max(0.05)).max(-0.25);
+        v.normal = v.normal.lerp((flat * outward - Vec3::Y).normalize(), below).normalize();
     }
 }

@@ -8,9 +8,9 @@ use super::shape::{HAIRLINE_ROW, JAW_ROW, LAST_ROW, locate};
 use super::state::{CORNERS, Eye, Mouth};
 
 /// Columns of half a head.
-pub(super) const HALF: usize = 42;
+pub(super) const HALF: usize = 41;
 /// Columns of the mouth's half, and of the eye.
-pub(super) const MOUTH_COLUMNS: usize = 10;
+pub(super) const MOUTH_COLUMNS: usize = 9;
 pub(super) const EYE_FIRST: usize = 11;
 pub(super) const EYE_LAST: usize = 25;
 /// Rows: hairline, upper and lower lid, upper and lower lip, edge of the jaw, last.
@@ -79,10 +79,11 @@ fn lid_point(row: usize, column: usize) -> Vec2 {
         on(s, row == LID_END)
     } else {
         // Through the corner: s falls to 0 (or rises to 1) and comes back on the other lid. Squared, because the lids
-        // meet at a round corner.
-        let t = (1.0 - 2.0 * down).abs();
+        // meet at a round corner. The inner one lies low.
+        let corner = if column == EYE_FIRST { 2.0 / 3.0 } else { 0.5 };
+        let t = (1.0 - down / corner).max((down - corner) / (1.0 - corner));
         let near = CORNER_SHARE * t * t;
-        on(if column == EYE_FIRST { near } else { 1.0 - near }, down > 0.5)
+        on(if column == EYE_FIRST { near } else { 1.0 - near }, down > corner)
     }
 }
 
@@ -146,6 +147,10 @@ pub(super) fn relaxed() -> Grid {
                 let mean = (left + right + grid[r - 1][c] + grid[r + 1][c]) * 0.25;
                 let here = grid[r][c];
                 grid[r][c] = here + (mean - here) * 1.6;
+                if (LID..=LID_END).contains(&r) && c < EYE_FIRST {
+                    // Columns beside the inner corner, which stands out, would fold over it.
+                    grid[r][c].x = grid[r][c].x.min(grid[r][EYE_FIRST].x * c as f32 / EYE_FIRST as f32);
+                }
             }
         }
     }

@@ -11,6 +11,8 @@ use crate::skeleton::Skeleton;
 
 /// Height before the skin.
 const BEFORE: f32 = 0.0006;
+/// What is added to it with shut eyes, whose skin is stretched over few vertices.
+const SHUT: f32 = 0.0009;
 /// Thickness of the upper lash at the inner end, metres, and how many times that it is at the outer end.
 const THIN: f32 = 0.0018;
 const HEAVY: f32 = 2.5;
@@ -25,7 +27,7 @@ fn lid(eye: &Eye, s: f32, lower: bool) -> Vec2 {
 }
 
 fn before(face: &Face, p: Vec2, lift: f32) -> Vec3 {
-    front(p.x, p.y) + Vec3::new(0.25 * lift, 0.0, lift + lid_bulge(p.x, p.y, face))
+    front(p.x, p.y) + Vec3::new(0.25 * lift, 0.0, lift + lid_bulge(p.x, p.y, face) + SHUT * face.eyes[0].shut)
 }
 
 /// Thickness of the upper lash along the lid.
@@ -77,7 +79,7 @@ fn upper_edges(face: &Face, c: f32) -> [Vec2; 2] {
 fn upper_lash(sheet: &mut Sheet<'_>) {
     sheet.grid(
         4,
-        45,
+        41,
         |r, c| Vec2::new(c, 0.02 + r * 0.36),
         |face, r, c| {
             let [low, high] = upper_edges(face, c);
@@ -121,7 +123,7 @@ fn lower_lash(sheet: &mut Sheet<'_>) {
 fn brow(sheet: &mut Sheet<'_>) {
     sheet.grid(
         4,
-        25,
+        21,
         |r, c| Vec2::new(c, r),
         |face, r, c| {
             let lift = face.brow.lift;
@@ -133,7 +135,7 @@ fn brow(sheet: &mut Sheet<'_>) {
             let width = 0.0048
                 * (1.0 - (1.0 - (c / 0.11).min(1.0)).powi(2)).max(0.02).sqrt()
                 * (1.0 - c).clamp(0.01, 1.0).powf(0.75);
-            before(face, Vec2::new(x, y + width * (0.5 - r)), 0.0014)
+            before(face, Vec2::new(x, y + width * (0.5 - r)), 0.0009)
         },
     );
 }

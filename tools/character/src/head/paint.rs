@@ -63,7 +63,7 @@ pub(super) fn face() -> Picture {
         let n = (noise(uv * 24.0, [24, 24], 5) - 0.5) * 0.006;
         let skin = Vec3::new(r + n, g + n * 0.7, b + n * 0.7);
         // Behind the border of light that the jaw makes, so that the two edges are one.
-        let color = mix(skin, neck, smoothstep(0.005, 0.016, jaw.below(uv)));
+        let color = mix(skin, neck, smoothstep(0.004, 0.009, jaw.below(uv)));
         [color.x, color.y, color.z, a]
     });
     picture
@@ -173,7 +173,7 @@ fn lips(c: &mut Canvas) {
 pub(super) fn outline_mask() -> Picture {
     let mut c = Canvas::new(512, 512, Some(0xffffff));
     for side in [-1.0, 1.0] {
-        c.fill(&ellipse(at(side * 0.0365, 1.413), radii(0.0225, 0.0165)), 0x000000, 1.0);
+        c.fill(&ellipse(at(side * 0.0395, 1.412), radii(0.0275, 0.02)), 0x000000, 1.0);
     }
     c.fill(&ellipse(at(0.0, MOUTH_Y), radii(0.0145, 0.003)), 0x000000, 1.0);
     c.finish()
@@ -199,10 +199,9 @@ pub(super) fn face_paint() -> Picture {
             let line = polyline(&[at(x + 0.0006, 1.3776), at(x - 0.0028, 1.3714)], false);
             c.stroke(&line, 0x00ff00, 0.5, 0.0009 / UV_METRES);
         }
-        // From between the eyes down to the tip.
-        let ridge =
-            [at(side * 0.0042, 1.4), at(side * 0.0031, 1.39), at(side * 0.0026, 1.381), at(side * 0.003, 1.3745)];
-        c.stroke(&curve(&ridge, false), 0x0000ff, 0.9, 0.0008 / UV_METRES);
+        // Beside the tip alone: the bridge is seen in the contour.
+        let ridge = [at(side * 0.0036, 1.389), at(side * 0.0034, 1.382), at(side * 0.0036, 1.3755)];
+        c.stroke(&curve(&ridge, false), 0x0000ff, 0.55, 0.0006 / UV_METRES);
     }
     c.finish()
 }

@@ -125,8 +125,6 @@ const NECK: &[[f32; 4]] = &[
     [1.212, 1.212, 0.0392, -0.0225],
 ];
 
-/// z of the neck's axis.
-pub(super) const NECK_Z: f32 = -0.023;
 /// Row of the net that runs along the edge of the jaw.
 pub const JAW_ROW: f32 = (PLANAR.len() + 3) as f32;
 /// Row of the hairline.
