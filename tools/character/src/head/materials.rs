@@ -80,8 +80,8 @@ pub(super) fn add(model: &mut Model) {
             double_sided: true,
             ..Material::default()
         },
-        // Dark hair at an opacity of .65 over skin.
-        Material { name: "Brow", color: srgba(0x9386b0), shade: srgb(0x846f97), ..Material::default() },
+        // Dark hair, thinned by the skin below.
+        Material { name: "Brow", color: srgba(0x7f73a8), shade: srgb(0x706092), ..Material::default() },
         Material { name: "EyeballSclera", color: srgba(0xfaf5f3), shade: srgb(0xdccbdc), ..Material::default() },
         Material {
             name: "EyeballIris",

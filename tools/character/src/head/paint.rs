@@ -135,9 +135,9 @@ fn lid(s: f32, side: f32, lower: bool, away: f32) -> Vec2 {
 }
 
 fn nose(c: &mut Canvas) {
-    // The small shadow under the tip, drawn to one side, is all that the front view shows of a nose.
+    // The small shadow under the tip is all that the front view shows of a nose.
     let y = TIP_Y - 0.0056;
-    let shape = [at(-0.0024, y + 0.0008), at(0.0004, y), at(0.0024, y + 0.0011), at(0.0003, y - 0.0007)];
+    let shape = [at(-0.0018, y + 0.0005), at(0.0, y), at(0.0018, y + 0.0005), at(0.0, y - 0.0007)];
     c.fill(&curve(&shape, true), 0xd9827a, 0.85);
 }
 
@@ -176,6 +176,10 @@ pub(super) fn outline_mask() -> Picture {
         c.fill(&ellipse(at(side * 0.0395, 1.412), radii(0.0275, 0.02)), 0x000000, 1.0);
     }
     c.fill(&ellipse(at(0.0, MOUTH_Y), radii(0.0145, 0.003)), 0x000000, 1.0);
+    // The skin beside the corners folds where the mouth opens.
+    for side in [-1.0, 1.0] {
+        c.fill(&ellipse(at(side * 0.014, MOUTH_Y + 0.001), radii(0.0085, 0.0085)), 0x000000, 1.0);
+    }
     c.finish()
 }
 

@@ -157,7 +157,7 @@ impl Face {
         } else {
             (nl - rl, (rl - y).max(0.0))
         };
-        let reach = if y >= ru { 0.011 } else { 0.02 };
+        let reach = if y >= ru { 0.0165 } else { 0.02 };
         let near = fade(above.hypot(beside), reach);
         let mut pull = Vec2::new(nx - rx, dy) * near;
         // The jaw takes the chin along.
