@@ -9,17 +9,21 @@ use crate::mesh::Part;
 use crate::skeleton::Skeleton;
 
 /// Steps round the ear and rings from the head over the rim into the hollow.
-const STEPS: u32 = 20;
-/// Distance from the middle as a share of the outline, and height over the side of the head, metres.
+const STEPS: u32 = 24;
+/// Distance from the middle as a share of the outline, and height over the side of the head, metres: the back, the helix,
+/// the groove inside it, the inner fold, the hollow.
 const RINGS: &[[f32; 2]] = &[
-    [0.62, -0.012],
-    [0.86, 0.0],
-    [1.0, 0.0075],
-    [0.97, 0.0122],
-    [0.86, 0.0128],
-    [0.74, 0.0102],
-    [0.5, 0.0084],
-    [0.24, 0.0078],
+    [0.6, -0.012],
+    [0.84, 0.0],
+    [1.0, 0.0078],
+    [0.98, 0.0122],
+    [0.88, 0.013],
+    [0.8, 0.0112],
+    [0.72, 0.0086],
+    [0.6, 0.0104],
+    [0.48, 0.0104],
+    [0.34, 0.0066],
+    [0.18, 0.0056],
 ];
 
 /// The left ear.
@@ -31,11 +35,15 @@ fn left(skeleton: &Skeleton) -> Part {
     let middle = EAR + Vec3::new(-0.0075, 0.0, -0.002);
     let place = |angle: f32, share: f32, height: f32| {
         let (s, c) = angle.sin_cos();
-        // Wide above, narrow at the lobe; forward is +Z.
-        let wide = 0.0135 + 0.004 * s;
-        let tall = if s > 0.0 { 0.026 } else { 0.024 };
-        let lobe = if s < 0.0 { 0.0045 * s } else { 0.0 };
-        let flat = Vec3::new(height, s * tall * share, c * wide * share - lobe * share);
+        // Wide above, a narrow lobe that leans to the cheek; forward is +Z.
+        let below = (-s).max(0.0);
+        let wide = 0.0138 + 0.0036 * s;
+        let tall = 0.0262 - 0.001 * below;
+        let lobe = 0.0025 * below * below;
+        // Seen from the front it is round above, and its lobe lies against the head.
+        let round = (s * share).abs().powi(4) * if s < 0.0 { 0.9 } else { 0.65 };
+        let height = height - (height + 0.002).max(0.0) * round - (height - 0.002).max(0.0) * 0.3 * below;
+        let flat = Vec3::new(height, s * tall * share, c * wide * share + lobe * share);
         // The front edge lies against the cheek.
         middle + turn * (flat - Vec3::X * 0.006 * (c * share).max(0.0))
     };

@@ -9,7 +9,7 @@ use crate::mesh::Part;
 use crate::skeleton::{Skeleton, Weights};
 
 /// Middle of the left eyeball, and its radius. An anime eye is no ball: this one is as wide as the opening asks.
-const MIDDLE: Vec3 = Vec3::new(0.0365, 1.4115, 0.0455);
+const MIDDLE: Vec3 = Vec3::new(0.0365, 1.4115, 0.0418);
 const RADIUS: f32 = 0.0255;
 /// Angle of the iris' edge (limbus) seen from the middle of the ball.
 const LIMBUS: f32 = 0.5;

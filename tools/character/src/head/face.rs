@@ -1,150 +1,18 @@
-//! The skin of the head: a closed grid of quads whose lines run round the eyes and the mouth, with sockets behind the
-//! lids and a pocket behind the lips.
+//! The skin of the head: a closed grid of quads whose lines run round the eyes and the mouth.
 
 use std::f32::consts::PI;
 
 use glam::{Vec2, Vec3};
 
+use super::cavities::{pocket, socket};
 use super::expressions::STATES;
-use super::shape::{self, HAIRLINE_ROW, JAW_ROW, LAST_ROW, front, locate, net, proxy_normal};
-use super::state::{CORNERS, Eye, Face, Mouth};
+use super::features::features;
+use super::grid::{EYE_FIRST, EYE_LAST, HAIRLINE, HALF, JAW, LID, LID_END, LIP, LIP_END, MOUTH_COLUMNS, ROWS, relaxed};
+use super::shape::{self, front, net, proxy_normal};
+use super::state::Face;
 use crate::mesh::Part;
 use crate::picture::smoothstep;
 use crate::skeleton::{Skeleton, Weights, blend};
-
-/// Columns of half a head.
-const HALF: usize = 38;
-/// Columns of the mouth's half, and of the eye.
-const MOUTH_COLUMNS: usize = 6;
-const EYE_FIRST: usize = 7;
-const EYE_LAST: usize = 21;
-/// Rows: hairline, upper and lower lid, upper and lower lip, edge of the jaw, last.
-const HAIRLINE: usize = 4;
-const LID: usize = 11;
-const LID_END: usize = LID + 6;
-const LIP: usize = LID_END + 8;
-const LIP_END: usize = LIP + 4;
-const JAW: usize = LIP_END + 6;
-const ROWS: usize = JAW + 10;
-
-/// A vertex of the grid's left half: where it stands on the net, and on the face's front projection.
-type Grid = Vec<Vec<Vec2>>;
-
-/// Eye openings run from the inner to the outer corner; the sides of the block share a piece at each corner.
-const CORNER_SHARE: f32 = 0.07;
-
-fn start() -> Grid {
-    let rows = [
-        (0, 0.0),
-        (HAIRLINE, HAIRLINE_ROW),
-        (LID, 6.05),
-        (LID_END, 7.6),
-        (LIP, 9.85),
-        (LIP_END, 10.15),
-        (JAW, JAW_ROW),
-        (JAW + 3, 14.0),
-        (JAW + 6, 16.0),
-        (ROWS - 1, LAST_ROW),
-    ];
-    let columns = [(0, 0.0), (EYE_FIRST, 0.86), (EYE_LAST, 3.2), (EYE_LAST + 4, 4.35), (HALF, 8.0)];
-    let at = |table: &[(usize, f32)], i: usize| {
-        let k = table.iter().rposition(|(n, _)| *n <= i).unwrap_or(0).min(table.len() - 2);
-        let ((a, x), (b, y)) = (table[k], table[k + 1]);
-        x + (y - x) * (i - a) as f32 / (b - a) as f32
-    };
-    (0..ROWS).map(|r| (0..=HALF).map(|c| Vec2::new(at(&columns, c), at(&rows, r))).collect()).collect()
-}
-
-/// Places along the lids at which vertices of the grid stand, 0 at the inner and 1 at the outer corner.
-pub(super) fn lid_columns() -> impl Iterator<Item = f32> {
-    (EYE_FIRST..=EYE_LAST).map(lid_column)
-}
-
-fn lid_column(column: usize) -> f32 {
-    let across = (column - EYE_FIRST) as f32 / (EYE_LAST - EYE_FIRST) as f32;
-    CORNER_SHARE + (1.0 - 2.0 * CORNER_SHARE) * across
-}
-
-/// Point of the lids at a place on the border of the eye's block.
-fn lid_point(row: usize, column: usize) -> Vec2 {
-    let eye = Eye::default();
-    let s = lid_column(column);
-    let down = (row - LID) as f32 / (LID_END - LID) as f32;
-    let on = |s: f32, lower: bool| {
-        let x = CORNERS[0].x + (CORNERS[1].x - CORNERS[0].x) * s;
-        Vec2::new(x, eye.lids(s)[usize::from(lower)])
-    };
-    if row == LID || row == LID_END {
-        on(s, row == LID_END)
-    } else {
-        // Through the corner: s falls to 0 (or rises to 1) and comes back on the other lid. Squared, because the lids
-        // meet at a round corner.
-        let t = (1.0 - 2.0 * down).abs();
-        let near = CORNER_SHARE * t * t;
-        on(if column == EYE_FIRST { near } else { 1.0 - near }, down > 0.5)
-    }
-}
-
-fn lip_point(row: usize, column: usize) -> Vec2 {
-    // Denser at the corners, where an open mouth is round.
-    let q = (column as f32 / MOUTH_COLUMNS as f32 * PI * 0.5).sin();
-    let [x, upper, lower] = Mouth::default().lips(q);
-    Vec2::new(x, upper + (lower - upper) * (row - LIP) as f32 / (LIP_END - LIP) as f32)
-}
-
-fn in_eye(row: usize, column: usize) -> bool {
-    (LID..=LID_END).contains(&row) && (EYE_FIRST..=EYE_LAST).contains(&column)
-}
-
-fn in_mouth(row: usize, column: usize) -> bool {
-    (LIP..=LIP_END).contains(&row) && column <= MOUTH_COLUMNS
-}
-
-/// The grid on the net: its lines are drawn to lids and lips, and evened out between them.
-fn relaxed() -> Grid {
-    let mut grid = start();
-    let mut fixed = vec![vec![false; HALF + 1]; ROWS];
-    for r in 0..ROWS {
-        for c in 0..=HALF {
-            fixed[r][c] = r <= HAIRLINE || r >= JAW;
-            let border = r == LID || r == LID_END || c == EYE_FIRST || c == EYE_LAST;
-            if in_eye(r, c) && border {
-                let p = lid_point(r, c);
-                grid[r][c] = locate(p.x, p.y);
-                fixed[r][c] = true;
-            }
-            if in_mouth(r, c) {
-                let p = lip_point(r, c);
-                grid[r][c] = locate(p.x, p.y);
-                fixed[r][c] = true;
-            }
-        }
-    }
-    for _ in 0..400 {
-        for r in HAIRLINE + 1..JAW {
-            for c in 0..=HALF {
-                if fixed[r][c] {
-                    continue;
-                }
-                let mirror = |p: Vec2, axis: f32| Vec2::new(2.0 * axis - p.x, p.y);
-                let left = if c == 0 {
-                    mirror(grid[r][1], 0.0)
-                } else {
-                    grid[r][c - 1]
-                };
-                let right = if c == HALF {
-                    mirror(grid[r][HALF - 1], 8.0)
-                } else {
-                    grid[r][c + 1]
-                };
-                let mean = (left + right + grid[r - 1][c] + grid[r + 1][c]) * 0.25;
-                let here = grid[r][c];
-                grid[r][c] = here + (mean - here) * 1.6;
-            }
-        }
-    }
-    grid
-}
 
 /// Texture coordinates: seen from the front, u and v are x and y; the sides go on round the head.
 #[must_use]
@@ -157,11 +25,20 @@ pub fn uv(p: Vec3, below_jaw: f32) -> Vec2 {
 }
 
 /// Bones of the head and the neck.
-fn weights(skeleton: &Skeleton, p: Vec3) -> Weights {
+pub(super) fn weights(skeleton: &Skeleton, p: Vec3) -> Weights {
+    weights_with(skeleton, p, 1.0)
+}
+
+/// Most that the head holds of the skin under the jaw. Looks take what does not follow the head for neck, and that is where
+/// the shade of the neck begins.
+const UNDER_JAW: f32 = 0.83;
+
+/// With a limit to the share of the head.
+fn weights_with(skeleton: &Skeleton, p: Vec3, most: f32) -> Weights {
     let [head, neck, chest] = ["head", "neck", "upperChest"].map(|n| skeleton.find(n));
     // The skull tilts as a whole; only the neck bends.
     let axis = p.y + (p.z + 0.022) * 0.12;
-    let up = smoothstep(1.262, 1.318, axis);
+    let up = smoothstep(1.262, 1.318, axis).min(most);
     let low = 1.0 - smoothstep(1.212, 1.262, p.y);
     blend(&[(head, up), (neck, (1.0 - up) * (1.0 - low)), (chest, (1.0 - up) * low)])
 }
@@ -174,14 +51,14 @@ pub(super) fn lid_bulge(x: f32, y: f32, face: &Face) -> f32 {
 }
 
 /// Where the skin that rests at `p` is in this state.
-fn moved(p: Vec3, row: usize, face: &Face) -> Vec3 {
+pub(super) fn moved(p: Vec3, row: usize, face: &Face) -> Vec3 {
     let to = face.skin(p.x, p.y);
     if to == p.truncate() {
         return p;
     }
     // Under the jaw the skin does not slide over the front of the face; the pull fades towards the neck.
     let row = row as f32 - JAW as f32;
-    let slide = smoothstep(0.0, -3.0, row);
+    let slide = smoothstep(0.0, -5.0, row);
     let rise = if slide > 0.0 {
         front(to.x, to.y).z - front(p.x, p.y).z
     } else {
@@ -210,7 +87,7 @@ pub(super) fn build(skeleton: &Skeleton) -> [Part; 2] {
         let at = grid[r][c];
         let mut p = net(at.x, at.y);
         if r > HAIRLINE && r <= JAW + 1 && at.x < 5.0 {
-            p.z += shape::features(p.x, p.y) * smoothstep(4.6, 3.6, at.x);
+            p.z += features(p.x, p.y) * smoothstep(4.6, 3.6, at.x);
         }
         if c == 0 || c == HALF {
             p.x = 0.0;
@@ -254,7 +131,8 @@ pub(super) fn build(skeleton: &Skeleton) -> [Part; 2] {
                 at = flat;
             }
             let p = Vec3::new(p.x * sign, p.y, p.z);
-            skin.vertex(p, at, weights(skeleton, p));
+            let most = if r > JAW { UNDER_JAW } else { 1.0 };
+            skin.vertex(p, at, weights_with(skeleton, p, most));
         }
     }
     let index = |r: usize, c: usize| (r * columns + c) as u32;
@@ -304,129 +182,18 @@ fn close_ends(skin: &mut Part, skeleton: &Skeleton, columns: usize) {
     }
 }
 
-/// Normals of the face follow the proxy, as studios edit them: the border of light and shade stays one calm curve.
+/// Normals of the face follow the proxy, as studios edit them: the border of light and shade stays one calm curve. Those
+/// under the jaw and on the neck look down, so that both lie in the head's shade as a whole.
 fn edit_normals(skin: &mut Part, rows: &[(usize, usize)]) {
     for (v, (r, _)) in skin.vertices.iter_mut().zip(rows) {
         let p = v.position;
-        let above_jaw = 1.0 - smoothstep(JAW as f32 - 2.5, JAW as f32 + 0.6, *r as f32);
+        let above_jaw = 1.0 - smoothstep(JAW as f32 - 2.0, JAW as f32 + 0.6, *r as f32);
         let share = 0.9 * above_jaw * smoothstep(-0.03, 0.005, p.z);
         v.normal = v.normal.lerp(proxy_normal(p), share).normalize();
+        let below = smoothstep(JAW as f32, JAW as f32 + 1.5, *r as f32);
+        // Down, and inwards as far as that does not gainsay the surface.
+        let flat = v.normal.with_y(0.0);
+        let outward = ((v.normal.y - 0.07) / flat.length_squared().max(0.05)).max(-0.25);
+        v.normal = v.normal.lerp((flat * outward - Vec3::Y).normalize(), below).normalize();
     }
-}
-
-/// The socket behind the lids of one eye: an undercut wall and a floor.
-fn socket(skeleton: &Skeleton, grid: &Grid, point: &impl Fn(usize, usize) -> Vec3, sign: f32) -> Part {
-    let (rows, columns) = (LID_END - LID + 1, EYE_LAST - EYE_FIRST + 1);
-    let middle = point((LID + LID_END) / 2, (EYE_FIRST + EYE_LAST) / 2).truncate();
-    let mut part = Part::new("Face", "Face");
-    let mut edge = Vec::new();
-    for r in 0..rows {
-        for c in 0..columns {
-            let p = point(LID + r, EYE_FIRST + c);
-            let border = r == 0 || c == 0 || r == rows - 1 || c == columns - 1;
-            let second = !border && (r == 1 || c == 1 || r == rows - 2 || c == columns - 2);
-            let back = if border {
-                p
-            } else if second {
-                // Behind the border, a little outwards, so that the lids hide the wall.
-                let (br, bc) = (
-                    if r == 1 {
-                        0
-                    } else if r == rows - 2 {
-                        rows - 1
-                    } else {
-                        r
-                    },
-                    if c == 1 {
-                        0
-                    } else if c == columns - 2 {
-                        columns - 1
-                    } else {
-                        c
-                    },
-                );
-                let b = point(LID + br, EYE_FIRST + bc);
-                let out = (b.truncate() - middle) * 0.06;
-                Vec3::new(b.x + out.x, b.y + out.y, b.z - 0.0075)
-            } else {
-                let at = grid[LID + r][EYE_FIRST + c];
-                let q = net(at.x, at.y);
-                Vec3::new(q.x, q.y, front(q.x, q.y).z - 0.0105)
-            };
-            let flip = |q: Vec3| Vec3::new(q.x * sign, q.y, q.z);
-            // The wall is painted like the floor: it shows in profile.
-            let inward = if second {
-                (back.truncate() - middle) * 0.22
-            } else {
-                Vec2::ZERO
-            };
-            part.vertex(flip(back), flip_u(uv(back - inward.extend(0.0), 0.0), sign), weights(skeleton, p));
-            edge.push(border.then(|| flip(p)));
-        }
-    }
-    let quads = |part: &mut Part, a: u32, b: u32, c: u32, d: u32| {
-        if sign > 0.0 {
-            part.quad(a, b, c, d)
-        } else {
-            part.quad(d, c, b, a)
-        }
-    };
-    for r in 0..rows as u32 - 1 {
-        for c in 0..columns as u32 - 1 {
-            let i = r * columns as u32 + c;
-            let below = i + columns as u32;
-            quads(&mut part, i, below, below + 1, i + 1);
-        }
-    }
-    part.smooth_normals();
-    add_morphs(&mut part, 0, |i, state| edge[i].map(|p| moved(p, LID, state) - p));
-    // Makes room for the spherical eyes.
-    for i in (0..part.vertices.len()).filter(|i| edge[*i].is_none()) {
-        part.offset("eyeballs", i as u32, Vec3::new(0.0, 0.0, -0.024));
-    }
-    part
-}
-
-fn flip_u(uv: Vec2, sign: f32) -> Vec2 {
-    Vec2::new(0.5 + (uv.x - 0.5) * sign, uv.y)
-}
-
-/// The pocket behind the lips, in the material of the mouth.
-fn pocket(skeleton: &Skeleton, point: &impl Fn(usize, usize) -> Vec3) -> Part {
-    let mut part = Part::new("Mouth", "Mouth");
-    let (rows, columns) = (LIP_END - LIP + 1, 2 * MOUTH_COLUMNS + 1);
-    // Depth behind the lips and height of each row of the pocket.
-    const DEPTH: [f32; 5] = [0.0, 0.007, 0.03, 0.007, 0.0];
-    const RISE: [f32; 5] = [0.0, 0.0045, 0.0, -0.0045, 0.0];
-    let mut anchors = Vec::new();
-    for r in 0..rows {
-        for c in 0..columns {
-            let (k, sign) = if c < MOUTH_COLUMNS {
-                (MOUTH_COLUMNS - c, -1.0)
-            } else {
-                (c - MOUTH_COLUMNS, 1.0)
-            };
-            let skin = |row: usize| {
-                let p = point(row, k);
-                Vec3::new(p.x * sign, p.y, p.z)
-            };
-            let p = skin(LIP + r);
-            let inside = if k == MOUTH_COLUMNS { 0.0 } else { 1.0 };
-            let q = Vec3::new(p.x, p.y + RISE[r] * inside, p.z - DEPTH[r] * inside);
-            let at = Vec2::new(c as f32 / (columns - 1) as f32, r as f32 / (rows - 1) as f32 * 0.5);
-            part.vertex(q, at, weights(skeleton, p));
-            anchors.push(match r {
-                0 | 1 => [skin(LIP), skin(LIP)],
-                3 | 4 => [skin(LIP_END), skin(LIP_END)],
-                _ => [skin(LIP), skin(LIP_END)],
-            });
-        }
-    }
-    part.quads(0, rows as u32, columns as u32, false);
-    part.smooth_normals();
-    add_morphs(&mut part, 0, |i, state| {
-        let [a, b] = anchors[i];
-        Some(((moved(a, LIP, state) - a) + (moved(b, LIP, state) - b)) * 0.5)
-    });
-    part
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::paint;
+use super::{paint, paint_eyes};
 use crate::model::{Alpha, Material, Model, Texture, srgb, srgba};
 
 /// Adds them.
@@ -14,10 +14,11 @@ pub(super) fn add(model: &mut Model) {
         texture("face_highlight", paint::highlight),
         texture("face_paint", paint::face_paint),
         texture("face_part_id", paint::part_id),
-        texture("eye_iris", paint::iris),
-        texture("eye_white", paint::eye_white),
-        texture("eyelash_shadow", paint::lash_shadow),
-        texture("mouth", paint::mouth),
+        texture("eye_iris", paint_eyes::iris),
+        texture("eye_white", paint_eyes::eye_white),
+        texture("eyelash_shadow", paint_eyes::lash_shadow),
+        texture("eyelash", paint_eyes::lash),
+        texture("mouth", paint_eyes::mouth),
     ]);
     model.materials.extend([
         Material {
@@ -73,12 +74,14 @@ pub(super) fn add(model: &mut Model) {
         Material { name: "EyeHighlight", shade: [0.92, 0.9, 0.95], shift: 1.0, ..Material::default() },
         Material {
             name: "Eyelash",
-            color: srgba(0x35222e),
-            shade: srgb(0x2a1826),
+            texture: Some("eyelash"),
+            shade: [0.72, 0.62, 0.7],
+            shade_texture: Some("eyelash"),
             double_sided: true,
             ..Material::default()
         },
-        Material { name: "Brow", color: srgba(0x625890), shade: srgb(0x52476f), ..Material::default() },
+        // Dark hair, thinned by the skin below.
+        Material { name: "Brow", color: srgba(0x7f73a8), shade: srgb(0x706092), ..Material::default() },
         Material { name: "EyeballSclera", color: srgba(0xfaf5f3), shade: srgb(0xdccbdc), ..Material::default() },
         Material {
             name: "EyeballIris",

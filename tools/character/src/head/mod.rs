@@ -1,13 +1,18 @@
 //! Head, face and eyes.
 
+mod cavities;
 mod ears;
 mod expressions;
 mod eyeballs;
 mod eyes;
 mod face;
+mod features;
+mod grid;
+mod lashes;
 mod materials;
 mod mouth;
 mod paint;
+mod paint_eyes;
 pub mod sdf;
 pub mod shape;
 mod state;
@@ -42,7 +47,7 @@ pub fn lids() -> Vec<(&'static str, [Vec<[f32; 2]>; 2])> {
         .iter()
         .map(|(name, state)| {
             let eye = state().eyes[usize::from(*name == "blinkRight")];
-            let lid = |k: usize| face::lid_columns().map(|s| [rest.lids(s)[k], eye.lids(s)[k]]).collect();
+            let lid = |k: usize| grid::lid_columns().map(|s| [rest.lids(s)[k], eye.lids(s)[k]]).collect();
             (*name, [lid(0), lid(1)])
         })
         .collect()

@@ -47,14 +47,14 @@ fn sheet(
 pub(super) fn build(skeleton: &Skeleton) -> Part {
     let mut part = Part::new("Mouth", "Mouth");
     let lip_z = front(0.0, MOUTH_Y).z;
-    let arc = |c: f32, half: f32, depth: f32| Vec3::new(half * c, 0.0, lip_z - depth - 0.0085 * c * c);
+    let arc = |c: f32, half: f32, depth: f32| Vec3::new(half * c, 0.0, lip_z - depth - 0.0105 * c * c);
     // At rest the teeth end above the line of the lips.
     sheet(&mut part, skeleton, 3, 9, [Vec2::new(0.02, 0.55), Vec2::new(0.98, 0.72)], |face, r, c| {
         let y =
             MOUTH_Y + 0.006 - 0.0052 * r + face.mouth.up * 0.5 - (face.mouth.down * 0.4).min(0.0022) + 0.0008 * c * c;
         // Round lips hide them.
         let y = y + 1.6 * (MOUTH_WIDTH - 0.0006 - face.mouth.width).max(0.0);
-        arc(c, 0.0125, 0.0052).with_y(y)
+        arc(c, 0.0122, 0.0066).with_y(y)
     });
     sheet(&mut part, skeleton, 5, 7, [Vec2::new(0.05, 0.78), Vec2::new(0.95, 0.98)], |face, r, c| {
         let drop = face.mouth.down;

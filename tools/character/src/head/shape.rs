@@ -1,5 +1,4 @@
-//! Shape of the head as a smooth surface: a net of control rows from the crown to the neck, and small features of the
-//! face on it. Landmarks that other parts rely on stand here too.
+//! Shape of the head as a smooth surface: a net of control rows from the crown to the neck. Landmarks that other parts rely on stand here too.
 
 use std::f32::consts::PI;
 use std::sync::LazyLock;
@@ -62,44 +61,44 @@ const BENT: &[[[f32; 3]; COLUMNS]] = &[
     ],
     [
         [0.0, 1.348, 0.0806],
-        [0.0184, 1.3485, 0.0778],
-        [0.0405, 1.352, 0.0682],
-        [0.0597, 1.3595, 0.051],
-        [0.0692, 1.3698, 0.0235],
-        [0.0712, 1.375, -0.012],
+        [0.0178, 1.3485, 0.0778],
+        [0.0392, 1.352, 0.0682],
+        [0.0584, 1.3595, 0.051],
+        [0.0685, 1.3698, 0.0235],
+        [0.0708, 1.375, -0.012],
         [0.0634, 1.375, -0.0535],
         [0.0388, 1.369, -0.082],
         [0.0, 1.366, -0.0925],
     ],
     [
         [0.0, 1.3285, 0.0778],
-        [0.0148, 1.3298, 0.0746],
-        [0.0342, 1.3355, 0.0638],
-        [0.0556, 1.3462, 0.0462],
-        [0.0676, 1.3585, 0.0208],
-        [0.0686, 1.3672, -0.012],
+        [0.0132, 1.3298, 0.0746],
+        [0.0312, 1.3355, 0.0638],
+        [0.0525, 1.3462, 0.0462],
+        [0.064, 1.3585, 0.0208],
+        [0.0676, 1.3672, -0.012],
         [0.0608, 1.368, -0.0508],
         [0.0379, 1.36, -0.0775],
         [0.0, 1.3555, -0.0868],
     ],
     [
         [0.0, 1.3158, 0.0722],
-        [0.0113, 1.3172, 0.0695],
-        [0.0261, 1.324, 0.059],
-        [0.0435, 1.336, 0.0415],
-        [0.0607, 1.3485, 0.0175],
-        [0.0648, 1.3585, -0.0125],
+        [0.0099, 1.3172, 0.0695],
+        [0.0234, 1.324, 0.059],
+        [0.0402, 1.336, 0.0415],
+        [0.0568, 1.3485, 0.0175],
+        [0.0632, 1.3585, -0.0125],
         [0.057, 1.36, -0.048],
         [0.036, 1.352, -0.0725],
         [0.0, 1.3465, -0.0815],
     ],
     [
         [0.0, 1.3128, 0.0615],
-        [0.0102, 1.314, 0.0595],
-        [0.0234, 1.3205, 0.0508],
-        [0.0401, 1.331, 0.0352],
-        [0.0535, 1.3432, 0.0135],
-        [0.0589, 1.3525, -0.0135],
+        [0.009, 1.314, 0.0595],
+        [0.0211, 1.3205, 0.0508],
+        [0.0375, 1.331, 0.0352],
+        [0.0508, 1.3432, 0.0135],
+        [0.0574, 1.3525, -0.0135],
         [0.0523, 1.3535, -0.0455],
         [0.0333, 1.346, -0.068],
         [0.0, 1.341, -0.076],
@@ -226,52 +225,12 @@ pub fn locate(x: f32, y: f32) -> Vec2 {
     at
 }
 
-/// Smooth bump: 1 at the centre, 0.37 one radius away.
-fn bump(x: f32, y: f32, center: [f32; 2], radii: [f32; 2]) -> f32 {
-    let (dx, dy) = ((x - center[0]) / radii[0], (y - center[1]) / radii[1]);
-    (-dx * dx - dy * dy).exp()
-}
-
-/// How far the features of the face stand out of the net towards +Z, metres.
-#[must_use]
-pub fn features(x: f32, y: f32) -> f32 {
-    let x = x.abs();
-    nose(x, y)
-        // Eye sockets lie back, cheeks and the little muzzle stand out.
-        - 0.0036 * bump(x, y, [0.034, 1.416], [0.021, 0.0165])
-        - 0.0030 * bump(x, y, [0.0, 1.418], [0.012, 0.018])
-        + 0.0022 * bump(x, y, [0.041, 1.378], [0.018, 0.015])
-        + 0.0032 * bump(x, y, [0.0, 1.3465], [0.015, 0.0105])
-        // Lips.
-        + 0.0016 * bump(x, y, [0.0, 1.3492], [0.0085, 0.0022])
-        + 0.002 * bump(x, y, [0.0, 1.3412], [0.0075, 0.0026])
-        - 0.0014 * bump(x, y, [0.0, 1.3342], [0.013, 0.0038])
-        // Chin.
-        + 0.0038 * bump(x, y, [0.0, 1.322], [0.0105, 0.0075])
-}
-
-/// Bridge and tip of the nose.
-fn nose(x: f32, y: f32) -> f32 {
-    const TIP: f32 = 1.3695;
-    let height = if y > TIP {
-        // From the tip up the bridge.
-        let t = ((y - TIP) / 0.05).clamp(0.0, 1.0);
-        0.0082 * (1.0 - t).powf(2.4)
-    } else {
-        // Under the tip it falls back within a few millimetres.
-        let t = ((TIP - y) / 0.0105).clamp(0.0, 1.0);
-        0.0082 * (1.0 - t * t * (3.0 - 2.0 * t))
-    };
-    let width = 0.0046 + 0.0024 * bump(0.0, y, [0.0, TIP - 0.001], [1.0, 0.009]);
-    height * (-(x / width).powi(2)).exp()
-}
-
 /// Point of the face at this x and y, with its features.
 #[must_use]
 pub fn front(x: f32, y: f32) -> Vec3 {
     let at = locate(x.abs(), y);
     let mut p = net(at.x, at.y);
-    p.z += features(p.x, p.y);
+    p.z += super::features::features(p.x, p.y);
     Vec3::new(x, y, p.z)
 }
 

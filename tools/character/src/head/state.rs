@@ -6,9 +6,9 @@ use glam::Vec2;
 /// Inner and outer corner of the left eye, x and y.
 pub const CORNERS: [Vec2; 2] = [Vec2::new(0.0166, 1.402), Vec2::new(0.0592, 1.4078)];
 /// Middle of the left iris.
-pub const IRIS: Vec2 = Vec2::new(0.0374, 1.4114);
+pub const IRIS: Vec2 = Vec2::new(0.0375, 1.4137);
 /// Half axes of the iris.
-pub const IRIS_RADII: Vec2 = Vec2::new(0.0162, 0.0196);
+pub const IRIS_RADII: Vec2 = Vec2::new(0.0154, 0.0182);
 /// Height of the mouth's line in its middle.
 pub const MOUTH_Y: f32 = 1.3454;
 /// Half width of the closed mouth.
@@ -78,13 +78,13 @@ pub struct Face {
 fn upper_rest(s: f32) -> f32 {
     // Rises fast at the inner corner, flat on top, falls to the outer corner in a long line.
     let s = s.clamp(0.0, 1.0);
-    0.0232 * (1.0 - (1.0 - s).powf(3.4)).powf(0.72) * (1.0 - s.powf(3.0)).powf(0.78) * (1.08 - 0.12 * s)
+    0.0248 * (1.0 - (1.0 - s).powf(3.4)).powf(0.72) * (1.0 - s.powf(3.0)).powf(0.78) * (1.08 - 0.12 * s)
 }
 
 /// Depth of the open lower lid under the same line.
 fn lower_rest(s: f32) -> f32 {
     let s = s.clamp(0.0, 1.0);
-    0.0108 * (1.0 - (1.0 - s).powf(2.2)).powf(0.8) * (1.0 - s.powf(4.0)).powf(0.8)
+    0.0114 * (1.0 - (1.0 - s).powf(2.2)).powf(0.8) * (1.0 - s.powf(4.0)).powf(0.8)
 }
 
 fn three(values: [f32; 3], s: f32) -> f32 {
@@ -127,7 +127,7 @@ impl Mouth {
 
 /// Height of the closed mouth's line.
 fn mouth_line(q: f32) -> f32 {
-    MOUTH_Y + 0.0014 * q * q - 0.0002 * (1.0 - q)
+    MOUTH_Y + 0.002 * q * q - 0.0002 * (1.0 - q)
 }
 
 /// Smooth fall from 1 at 0 to 0 at `reach`.
@@ -157,7 +157,7 @@ impl Face {
         } else {
             (nl - rl, (rl - y).max(0.0))
         };
-        let reach = if y >= ru { 0.011 } else { 0.02 };
+        let reach = if y >= ru { 0.0165 } else { 0.02 };
         let near = fade(above.hypot(beside), reach);
         let mut pull = Vec2::new(nx - rx, dy) * near;
         // The jaw takes the chin along.
