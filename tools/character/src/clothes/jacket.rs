@@ -2,7 +2,8 @@
 
 use glam::{Vec2, Vec3};
 
-use crate::body::shape::{arm, torso};
+use super::sleeve;
+use crate::body::shape::torso;
 use crate::body::weights;
 use crate::loft::{grid, ring};
 use crate::mesh::Part;
@@ -13,7 +14,7 @@ use crate::skeleton::Skeleton;
 const HEIGHTS: &[f32] =
     &[1.254, 1.246, 1.236, 1.222, 1.205, 1.186, 1.166, 1.146, 1.126, 1.105, 1.08, 1.05, 1.02, 0.992, 0.97, 0.95, 0.936];
 /// Columns from the middle of the back to the front edge.
-const COLUMNS: usize = 20;
+pub(super) const COLUMNS: usize = 20;
 /// The armhole: first and last row, first and last column.
 const HOLE: [usize; 4] = [1, 7, 6, 14];
 /// Distance over the skin.
@@ -47,7 +48,7 @@ fn in_hole(r: usize, c: usize) -> bool {
 }
 
 /// The loop of the armhole: over the top to the front, down, back below, up; with row and column.
-fn armhole() -> Vec<(usize, usize)> {
+pub(super) fn armhole() -> Vec<(usize, usize)> {
     let [top, bottom, back, front] = HOLE;
     let mut loop_ = Vec::new();
     loop_.extend((back..front).map(|c| (top, c)));
@@ -56,28 +57,6 @@ fn armhole() -> Vec<(usize, usize)> {
     loop_.extend((top + 1..=bottom).rev().map(|r| (r, back)));
     loop_
 }
-
-/// Rings of the sleeve: x, radius, height and depth of its axis.
-const SLEEVE: &[[f32; 4]] = &[
-    [0.139, 0.0525, 1.2105, -0.016],
-    [0.15, 0.0508, 1.2118, -0.016],
-    [0.163, 0.0492, 1.213, -0.016],
-    [0.178, 0.0475, 1.2138, -0.0162],
-    [0.195, 0.046, 1.2145, -0.0165],
-    [0.235, 0.0435, 1.215, -0.0175],
-    [0.275, 0.042, 1.215, -0.0185],
-    [0.302, 0.0412, 1.215, -0.0192],
-    [0.322, 0.041, 1.215, -0.0198],
-    [0.342, 0.041, 1.215, -0.02],
-    [0.362, 0.041, 1.215, -0.0195],
-    [0.39, 0.041, 1.215, -0.019],
-    [0.425, 0.0412, 1.215, -0.018],
-    [0.46, 0.0418, 1.215, -0.0168],
-    [0.49, 0.0428, 1.215, -0.0155],
-    [0.506, 0.0432, 1.215, -0.015],
-    [0.506, 0.0395, 1.215, -0.015],
-    [0.485, 0.037, 1.215, -0.0155],
-];
 
 /// Texture of the jacket: torso in the left two thirds, sleeve in the right one.
 fn body_uv(r: usize, c: usize) -> Vec2 {
@@ -107,7 +86,7 @@ pub(super) fn left(skeleton: &Skeleton) -> [Part; 2] {
             }
         }
     }
-    sleeve(&mut jacket, skeleton);
+    sleeve::add(&mut jacket, skeleton);
 
     // The lining: a shell inside the torso, joined along hem, front edge and neck.
     let mut lining = Part::new("JacketLining", "Jacket_Lining");
@@ -148,63 +127,6 @@ pub(super) fn left(skeleton: &Skeleton) -> [Part; 2] {
         lining.quad(a, a + 1, b + 1, b);
     }
     [jacket, lining]
-}
-
-fn sleeve(jacket: &mut Part, skeleton: &Skeleton) {
-    let hole = armhole();
-    let n = hole.len();
-    let loop_places: Vec<Vec3> = hole.iter().map(|(r, c)| jacket.vertices[r * COLUMNS + c].position).collect();
-    // Where each column of the sleeve starts: at the angle that its vertex of the armhole stands at, evened out.
-    let middle = Vec3::new(0.11, 1.205, -0.016);
-    let angles: Vec<f32> = {
-        let raw: Vec<f32> = loop_places.iter().map(|p| (p.z - middle.z).atan2(p.y - middle.y)).collect();
-        // From the back over the top to the front: the angle grows.
-        let mut grown = vec![raw[0]];
-        for a in &raw[1..] {
-            let mut next = *a;
-            while next < grown[grown.len() - 1] - 1.0 {
-                next += std::f32::consts::TAU;
-            }
-            grown.push(next);
-        }
-        (0..n).map(|i| 0.35 * grown[i] + 0.65 * (grown[0] + std::f32::consts::TAU * i as f32 / n as f32)).collect()
-    };
-    let ring_at = |[x, radius, y, z]: [f32; 4]| -> Vec<Vec3> {
-        angles.iter().map(|a| Vec3::new(x, y + a.cos() * radius, z + a.sin() * radius)).collect()
-    };
-    let mut rows = vec![loop_places.clone()];
-    let first_ring = ring_at(SLEEVE[0]);
-    for t in [0.36f32, 0.7] {
-        // The shoulder: from the armhole outwards, a little full.
-        rows.push(
-            (0..n)
-                .map(|i| {
-                    let p = loop_places[i].lerp(first_ring[i], t);
-                    let out = (p - Vec3::new(p.x, 1.205, -0.016)).normalize_or(Vec3::Y);
-                    p + out * 0.006 * (1.0 - (2.0 * t - 1.0).powi(2)) * smoothstep(-0.2, 0.6, out.y)
-                })
-                .collect(),
-        );
-    }
-    rows.extend(SLEEVE.iter().map(|s| ring_at(*s)));
-    let count = rows.len();
-    let first =
-        grid(jacket, &rows, true, |r, c| Vec2::new(0.66 + 0.32 * c, 0.02 + 0.96 * r), |p| weights::torso(skeleton, p));
-    // Seen from outside the rows run to the right and advance towards the hand.
-    let vote: f32 = jacket
-        .triangles
-        .iter()
-        .filter(|t| t[0] >= first)
-        .map(|t| {
-            let [a, b, c] = t.map(|i| jacket.vertices[i as usize].position);
-            let mid = (a + b + c) / 3.0;
-            (b - a).cross(c - a).dot(mid - Vec3::new(mid.x, 1.213, -0.017))
-        })
-        .sum();
-    if vote < 0.0 {
-        jacket.triangles.iter_mut().filter(|t| t[0] >= first).for_each(|t| t.swap(1, 2));
-    }
-    debug_assert!(count > 4 && arm(0.3) < 0.041, "the sleeve is wider than the arm");
 }
 
 /// The blouse: a shell under the jacket with a stand-up collar.

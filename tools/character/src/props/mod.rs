@@ -85,10 +85,10 @@ fn materials(model: &mut Model) {
     model.materials.extend([
         Material {
             name: "Cloth_Bow",
-            color: srgba(0x39406e),
-            shade: srgb(0x242650),
+            color: srgba(0xb3263f),
+            shade: srgb(0x74184a),
             outline: 0.0008,
-            outline_color: srgb(0x12132b),
+            outline_color: srgb(0x3c0a1c),
             ..Material::default()
         },
         metal("Metal_Brooch", 0x8c5a22, 0x4e2b1e, 0x2e180f, [0.8; 3]),
