@@ -28,13 +28,13 @@ fn leg_ring(y: f32, out: f32) -> Vec<Vec3> {
 /// The left thigh, from the hip to the stocking.
 pub(super) fn thigh(skeleton: &Skeleton) -> Part {
     let mut part = Part::new("Skin", "Body_Skin");
-    let heights = [0.84, 0.8, 0.76, 0.72, 0.69, 0.665, 0.645, 0.634, 0.622, 0.6];
+    let heights = [0.84, 0.79, 0.745, 0.71, 0.683, 0.665, 0.653, 0.643, 0.634, 0.615];
     let rows: Vec<Vec<Vec3>> = heights
         .iter()
         .map(|y| {
             // The hem presses in; the skin above it swells.
-            let swell = 0.0028 * (-((y - 0.646) / 0.012f32).powi(2)).exp();
-            leg_ring(*y, swell - 0.003 * smoothstep(0.634, 0.62, *y))
+            let swell = 0.0052 * (-((y - 0.65) / 0.014f32).powi(2)).exp();
+            leg_ring(*y, swell - 0.0045 * smoothstep(0.642, 0.628, *y))
         })
         .collect();
     let first = grid(&mut part, &rows, true, |r, c| Vec2::new(c, 0.02 + 0.44 * r), |p| weights::leg(skeleton, p));
@@ -51,21 +51,26 @@ pub(super) fn thigh(skeleton: &Skeleton) -> Part {
 /// The left stocking.
 pub(super) fn stocking(skeleton: &Skeleton) -> Part {
     let mut part = Part::new("Stockings", "Stocking");
+    // The band: turned in above, a step below.
     let heights = [
-        0.618, STOCKING_TOP, 0.6335, 0.622, 0.6, 0.57, 0.54, 0.515, 0.492, 0.472, 0.452, 0.432, 0.41, 0.38, 0.345,
-        0.31, 0.28, 0.25, 0.22,
+        0.622, STOCKING_TOP, 0.6338, 0.631, 0.609, 0.6062, 0.6055, 0.58, 0.55, 0.52, 0.495, 0.472, 0.452, 0.432, 0.41,
+        0.38, 0.345, 0.31, 0.28, 0.25, 0.22,
     ];
     let rows: Vec<Vec<Vec3>> = heights
         .iter()
         .enumerate()
         .map(|(i, y)| {
-            // The first rows turn in over the edge: cloth has thickness.
             let out = match i {
-                0 => -0.001,
-                1 => -0.0002,
-                _ => 0.0014 + 0.0008 * smoothstep(0.615, 0.625, *y),
+                0 => -0.0022,
+                1 => -0.0004,
+                2 => 0.0012,
+                3 | 4 => 0.0024,
+                5 => 0.002,
+                6 => 0.0006,
+                _ => 0.0014,
             };
-            leg_ring(*y, out)
+            // It presses into the thigh.
+            leg_ring(*y, out - 0.002 * smoothstep(0.59, 0.61, *y))
         })
         .collect();
     let top = heights[1];
@@ -101,7 +106,27 @@ const BOOT: &[([f32; 2], [f32; 2], f32)] = &[
     ([0.034, 0.1535], [0.0185, 0.13], 0.0245),
 ];
 
-/// The left boot, without its sole.
+/// Point of the left boot: section counted from above, share of the turn from the back over her right side.
+fn boot_point(section: f32, turn_share: f32, out: f32) -> Vec3 {
+    let i = (section as usize).min(BOOT.len() - 2);
+    let f = section - i as f32;
+    let mix = |a: f32, b: f32| a + (b - a) * f;
+    let (a, b) = (BOOT[i], BOOT[i + 1]);
+    let front = Vec3::new(0.0, mix(a.0[0], b.0[0]), mix(a.0[1], b.0[1]));
+    let back = Vec3::new(0.0, mix(a.1[0], b.1[0]), mix(a.1[1], b.1[1]));
+    let half = mix(a.2, b.2);
+    let (s, c) = (turn_share * std::f32::consts::TAU).sin_cos();
+    let deep = (back - front) * 0.5;
+    let p = (front + back) * 0.5 + Vec3::X * 0.079 + Vec3::NEG_X * (half + out) * s + deep * (1.0 + out / deep.length()) * c;
+    p + toes_out(p)
+}
+
+/// Toes point out a little.
+fn toes_out(p: Vec3) -> Vec3 {
+    Vec3::X * 0.09 * p.z.max(0.0) * smoothstep(0.12, 0.06, p.y)
+}
+
+/// The left boot, with straps, laces and sole.
 pub(super) fn boot(skeleton: &Skeleton) -> Part {
     let mut part = Part::new("Boots", "Boots");
     let rows: Vec<Vec<Vec3>> = BOOT
@@ -110,11 +135,7 @@ pub(super) fn boot(skeleton: &Skeleton) -> Part {
             let (f, b) = (Vec3::new(0.0, front[0], front[1]), Vec3::new(0.0, back[0], back[1]));
             let center = (f + b) * 0.5 + Vec3::X * 0.079;
             // The ring starts at the back and runs over her right side to the front.
-            ring_in(center, Vec3::NEG_X * *half, (b - f) * 0.5, COLUMNS)
-                .into_iter()
-                // Toes point out a little.
-                .map(|p| p + Vec3::X * 0.09 * p.z.max(0.0) * smoothstep(0.12, 0.06, p.y))
-                .collect()
+            ring_in(center, Vec3::NEG_X * *half, (b - f) * 0.5, COLUMNS).into_iter().map(|p| p + toes_out(p)).collect()
         })
         .collect();
     let mut lengths = vec![0.0f32];
@@ -130,8 +151,52 @@ pub(super) fn boot(skeleton: &Skeleton) -> Part {
     let first = grid(&mut part, &rows, true, uv, |p| weights::leg(skeleton, p));
     let tip = row(first, COLUMNS as u32 + 1, rows.len() as u32 - 1, false);
     part.cap(&tip, Vec2::new(0.5, 0.815), weights::leg(skeleton, rows[rows.len() - 1][0]));
+    straps(&mut part, skeleton);
+    laces(&mut part, skeleton);
     sole(&mut part, skeleton);
     part
+}
+
+/// Sections of the boot that the straps lie on: below the edge, round the ankle.
+const STRAPS: [f32; 2] = [4.9, 8.3];
+
+fn straps(part: &mut Part, skeleton: &Skeleton) {
+    for section in STRAPS {
+        // Height of a section differs, the straps' does not.
+        let wide = 0.0075 / (BOOT[section as usize].0[0] - BOOT[section as usize + 1].0[0]);
+        let rows: Vec<Vec<Vec3>> = [(-1.0, -0.001), (-0.9, 0.0024), (0.9, 0.0024), (1.0, -0.001)]
+            .iter()
+            .map(|(at, out)| {
+                (0..COLUMNS).map(|c| boot_point(section + at * wide, c as f32 / COLUMNS as f32, *out)).collect()
+            })
+            .collect();
+        grid(part, &rows, true, |r, c| Vec2::new(0.45 * c, 0.935 + 0.02 * r), |p| weights::leg(skeleton, p));
+    }
+}
+
+/// Laces that cross over the tongue, each a thin tube.
+fn laces(part: &mut Part, skeleton: &Skeleton) {
+    const WIRE: f32 = 0.0019;
+    for k in 0..5 {
+        let (upper, lower) = (5.55 + 1.02 * k as f32, 6.45 + 1.02 * k as f32);
+        for side in [-1.0f32, 1.0] {
+            let rows: Vec<Vec<Vec3>> = [-1.0f32, -0.45, 0.45, 1.0]
+                .iter()
+                .map(|s| {
+                    // Those from one side lie over those from the other.
+                    let high = 0.0006 + if s.abs() < 0.6 { 0.0022 + 0.0005 * side } else { 0.0 };
+                    let turn = 0.5 + side * s * 0.058;
+                    let at = |s: f32, out: f32| boot_point(upper + (lower - upper) * (0.5 + 0.5 * s), turn, out);
+                    let p = at(*s, high);
+                    let out = (at(*s, high + 0.01) - p).normalize();
+                    let next = boot_point(lower, 0.5 + side * 0.058, high) - boot_point(upper, 0.5 - side * 0.058, high);
+                    let along = (next - out * out.dot(next)).normalize();
+                    ring_in(p, out.cross(along) * WIRE, out * WIRE, 4)
+                })
+                .collect();
+            grid(part, &rows, true, |r, c| Vec2::new(0.6 + 0.3 * r, 0.935 + 0.02 * c), |p| weights::leg(skeleton, p));
+        }
+    }
 }
 
 /// The sole: outline of the foot, heel block at the back.
@@ -141,9 +206,11 @@ fn sole(part: &mut Part, skeleton: &Skeleton) {
         [-0.074, 0.014, 0.079],
         [-0.066, 0.0255, 0.079],
         [-0.045, 0.0335, 0.079],
-        [-0.015, 0.035, 0.0795],
-        [0.02, 0.0365, 0.081],
-        [0.06, 0.0415, 0.084],
+        [-0.016, 0.035, 0.0795],
+        [-0.0125, 0.035, 0.0795],
+        [0.03, 0.0378, 0.0818],
+        [0.042, 0.0396, 0.0826],
+        [0.07, 0.042, 0.0847],
         [0.1, 0.0425, 0.0875],
         [0.13, 0.0365, 0.0905],
         [0.148, 0.0255, 0.092],
@@ -155,32 +222,32 @@ fn sole(part: &mut Part, skeleton: &Skeleton) {
     };
     let lift = |p: Vec3, top: bool| {
         // Heel and ball touch the ground, the arch between does not.
-        let arch = smoothstep(-0.02, -0.01, p.z) * smoothstep(0.045, 0.03, p.z);
+        let arch = smoothstep(-0.0155, -0.013, p.z) * smoothstep(0.042, 0.03, p.z);
         p + Vec3::Y
             * if top {
                 0.024
             } else {
-                0.0105 * arch + 0.003 * smoothstep(0.12, 0.157, p.z)
+                0.0125 * arch + 0.003 * smoothstep(0.12, 0.157, p.z)
             }
     };
-    let rows: Vec<Vec<Vec3>> = [(0.0005, true, 0.0), (0.0025, true, -0.005), (0.0025, false, 0.003), (0.0, false, 0.0)]
+    let rows: Vec<Vec<Vec3>> = [(0.0008, true, 0.001), (0.0042, true, -0.003), (0.0036, true, -0.008), (0.0016, false, 0.002), (0.0, false, 0.0)]
         .iter()
         .map(|(grow, top, more)| outline(*grow).into_iter().map(|p| lift(p, *top) + Vec3::Y * *more).collect())
         .collect();
     let columns = OUTLINE.len() as u32 * 2 + 1;
     let first = grid(part, &rows, true, |r, c| Vec2::new(c, 0.86 + 0.06 * r), |p| weights::leg(skeleton, p));
-    part.cap(&row(first, columns, 3, false), Vec2::new(0.5, 0.97), weights::leg(skeleton, Vec3::new(0.08, 0.0, 0.02)));
+    part.cap(&row(first, columns, 4, false), Vec2::new(0.5, 0.9), weights::leg(skeleton, Vec3::new(0.08, 0.0, 0.02)));
     part.cap(&row(first, columns, 0, true), Vec2::new(0.5, 0.85), weights::leg(skeleton, Vec3::new(0.08, 0.02, 0.02)));
 }
 
 /// Buckled straps of the left boot: two bands and their frames.
 pub(super) fn buckles(skeleton: &Skeleton) -> Part {
     let mut part = Part::new("Buckles", "Metal_Buckle");
-    for y in [0.242, 0.125] {
-        let bone = skeleton.only(if y > 0.1 { "leftLowerLeg" } else { "leftFoot" });
+    for section in STRAPS {
         // A square frame on the outer side of the leg.
-        let x = if y > 0.2 { 0.079 + 0.0495 } else { 0.079 + 0.0395 };
-        frame(&mut part, Vec3::new(x, y, -0.012), Vec3::NEG_Z * 0.0105, Vec3::Y * 0.0105, bone);
+        let at = boot_point(section, 0.73, 0.0034);
+        let bone = weights::leg(skeleton, at);
+        frame(&mut part, at, Vec3::NEG_Z * 0.0105, Vec3::Y * 0.0105, bone);
     }
     part
 }
@@ -216,18 +283,18 @@ fn frame(part: &mut Part, center: Vec3, right: Vec3, up: Vec3, bone: crate::skel
 /// Shorts: they close the body under the skirt.
 pub(super) fn shorts(skeleton: &Skeleton) -> Part {
     let mut part = Part::new("Shorts", "Cloth_Shorts");
-    let rows: Vec<Vec<Vec3>> = [0.945, 0.92, 0.89, 0.86, 0.83, 0.8, 0.775, 0.757]
+    let rows: Vec<Vec<Vec3>> = [0.945, 0.9, 0.86, 0.83, 0.8, 0.775, 0.757]
         .iter()
         .enumerate()
         .map(|(i, y)| {
             let [half, front, back] = torso(*y);
-            let close = [1.0, 1.0, 1.0, 1.0, 1.0, 0.93, 0.72, 0.35][i];
-            ring(Vec3::new(0.0, *y, 0.0), (half + 0.002) * close, (front + 0.002) * close, (back + 0.002) * close, 32)
+            let close = [1.0, 1.0, 1.0, 1.0, 0.93, 0.72, 0.35][i];
+            ring(Vec3::new(0.0, *y, 0.0), (half + 0.002) * close, (front + 0.002) * close, (back + 0.002) * close, 20)
         })
         .collect();
     let first = grid(&mut part, &rows, true, |r, c| Vec2::new(c, r), |p| weights::torso(skeleton, p));
     let hips = skeleton.only("hips");
-    part.cap(&row(first, 33, 7, false), Vec2::new(0.5, 1.0), hips);
-    part.cap(&row(first, 33, 0, true), Vec2::new(0.5, 0.0), weights::torso(skeleton, rows[0][0]));
+    part.cap(&row(first, 21, 6, false), Vec2::new(0.5, 1.0), hips);
+    part.cap(&row(first, 21, 0, true), Vec2::new(0.5, 0.0), weights::torso(skeleton, rows[0][0]));
     part
 }

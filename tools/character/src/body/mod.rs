@@ -53,7 +53,7 @@ fn materials(model: &mut Model) {
         Material {
             name: "Stocking",
             texture: Some("stocking"),
-            shade: srgb(0xa488c0),
+            shade: srgb(0x9c8ac8),
             shade_texture: Some("stocking"),
             outline: 0.0009,
             outline_color: srgb(0x17101f),
@@ -64,7 +64,7 @@ fn materials(model: &mut Model) {
         Material {
             name: "Boots",
             texture: Some("boots"),
-            shade: srgb(0xab84a4),
+            shade: srgb(0x9a80ac),
             shade_texture: Some("boots"),
             outline: 0.001,
             outline_color: srgb(0x21131a),

@@ -143,7 +143,7 @@ fn fix_winding(part: &mut Part, first: u32) {
 pub(super) fn cuff(skeleton: &Skeleton) -> Part {
     let mut part = Part::new("FurCuffs", "Jacket_Cuff");
     let center = Vec3::new(0.486, 1.215, -0.0155);
-    let (radius, thick) = (0.0305, 0.0122);
+    let (radius, thick) = (0.0268, 0.0098);
     let bone = weights::arm(skeleton, center - Vec3::X * 0.03);
     const AROUND: usize = 28;
     const TUBE: usize = 10;
@@ -168,14 +168,14 @@ pub(super) fn cuff(skeleton: &Skeleton) -> Part {
             let vary = |seed: u32| hash(id, seed, 80 + seed) - 0.5;
             let radial = about((i as f32 + 0.5 * row as f32 + 0.4 * vary(1)) * 360.0 / count as f32);
             let axis = center + radial * radius;
-            let length = 0.027 * size * (1.0 + 0.4 * vary(3));
+            let length = 0.0235 * size * (1.0 + 0.4 * vary(3));
             let out = (radial + Vec3::X * from * 0.5).normalize();
             let sideways = Vec3::X.cross(radial) * (0.5 * vary(2));
             let tuft = Tuft {
-                root: axis + radial * thick * 0.72 + Vec3::X * thick * from,
+                root: axis + radial * thick * 0.42 + Vec3::X * thick * from,
                 reach: (Vec3::X + radial * 0.12 + sideways).normalize() * length,
                 out,
-                half: 0.0086 * size * (1.0 + 0.3 * vary(4)),
+                half: 0.0072 * size * (1.0 + 0.3 * vary(4)),
                 bend: 0.12 + 0.14 * vary(5),
                 sway: 0.3 * vary(7) + 0.1 * vary(7).signum(),
                 column: 0.13 * (id % 7) as f32,

@@ -2,7 +2,7 @@
 
 use glam::{Vec2, Vec3};
 
-use super::sleeve;
+use super::{sleeve, trim};
 use crate::body::shape::torso;
 use crate::body::weights;
 use crate::loft::{grid, ring};
@@ -18,7 +18,7 @@ pub(super) const COLUMNS: usize = 20;
 /// The armhole: first and last row, first and last column.
 const HOLE: [usize; 4] = [1, 7, 6, 14];
 /// Distance over the skin.
-const OUT: f32 = 0.0085;
+pub(super) const OUT: f32 = 0.0085;
 
 /// Half angle of the front opening at height `y`, radians from straight ahead.
 fn opening(y: f32) -> f32 {
@@ -26,7 +26,7 @@ fn opening(y: f32) -> f32 {
 }
 
 /// Point of the left half: `column` 0 at the back .. 1 at the front edge.
-fn body_point(y: f32, column: f32, out: f32) -> Vec3 {
+pub(super) fn body_point(y: f32, column: f32, out: f32) -> Vec3 {
     let [half, front, back] = torso(y);
     // Over the waist the cloth stands off; the hem flares.
     let loose = 0.006 * smoothstep(1.08, 1.0, y) + 0.014 * smoothstep(0.985, 0.936, y);
@@ -88,45 +88,56 @@ pub(super) fn left(skeleton: &Skeleton) -> [Part; 2] {
     }
     sleeve::add(&mut jacket, skeleton);
 
-    // The lining: a shell inside the torso, joined along hem, front edge and neck.
-    let mut lining = Part::new("JacketLining", "Jacket_Lining");
     let rows = HEIGHTS.len();
-    for (r, y) in HEIGHTS.iter().enumerate() {
-        for c in 0..COLUMNS {
-            let y = y.clamp(HEIGHTS[rows - 1] + 0.0015, HEIGHTS[0] - 0.001);
-            // Deeper at the armhole, where a lowered arm dents the cloth.
-            let middle = 0.5 * (HOLE[2] + HOLE[3]) as f32;
-            let dent =
-                smoothstep(8.0, 4.0, (c as f32 - middle).abs()) * smoothstep(1.06, 1.11, y) * smoothstep(1.24, 1.2, y);
-            let inset = OUT - 0.0034 - 0.046 * dent;
-            let mut p = body_point(y, edge_column(c) * if c == COLUMNS - 1 { 0.994 } else { 1.0 }, inset);
-            if c == 0 {
-                p.x = 0.0;
-            }
-            lining.vertex(p, body_uv(r, c), bone(p));
-        }
-    }
-    for r in 0..rows - 1 {
-        for c in 0..COLUMNS - 1 {
-            // Closed at the armhole too, so that nobody looks into the sleeve.
-            lining.quad(index(r, c), index(r + 1, c), index(r + 1, c + 1), index(r, c + 1));
-        }
-    }
-    // Rim: outer edge to inner edge.
-    let base = lining.vertices.len() as u32;
     let mut edge: Vec<(usize, usize)> = (0..COLUMNS - 1).map(|c| (rows - 1, c)).collect();
     edge.extend((0..rows).rev().map(|r| (r, COLUMNS - 1)));
-    for (r, c) in &edge {
-        let outer = jacket.vertices[index(*r, *c) as usize];
-        let inner = lining.vertices[index(*r, *c) as usize];
+    let line: Vec<Vec3> = edge.iter().map(|(r, c)| jacket.vertices[index(*r, *c) as usize].position).collect();
+    trim::piping(&mut jacket, skeleton, &line, 0.0022);
+    trim::lapel(&mut jacket, skeleton);
+    let lining = lining(&jacket, skeleton, &edge);
+    [jacket, lining]
+}
+
+/// Point of the lining: deeper at the armhole, where a lowered arm dents the cloth.
+fn lining_point(r: usize, c: usize) -> Vec3 {
+    let y = HEIGHTS[r].clamp(HEIGHTS[HEIGHTS.len() - 1] + 0.0015, HEIGHTS[0] - 0.001);
+    let middle = 0.5 * (HOLE[2] + HOLE[3]) as f32;
+    let dent = smoothstep(8.0, 4.0, (c as f32 - middle).abs()) * smoothstep(1.06, 1.11, y) * smoothstep(1.24, 1.2, y);
+    let inset = OUT - 0.0034 - 0.046 * dent;
+    let p = body_point(y, edge_column(c) * if c == COLUMNS - 1 { 0.994 } else { 1.0 }, inset);
+    if c == 0 { p.with_x(0.0) } else { p }
+}
+
+/// The lining: a shell inside the torso, joined along hem, front edge and neck. It is closed at the armhole too, so that
+/// nobody looks into the sleeve.
+fn lining(jacket: &Part, skeleton: &Skeleton, edge: &[(usize, usize)]) -> Part {
+    let mut lining = Part::new("JacketLining", "Jacket_Lining");
+    let bone = |p: Vec3| weights::torso(skeleton, p);
+    let add = |lining: &mut Part, r: usize, c: usize| {
+        let p = lining_point(r, c);
+        lining.vertex(p, body_uv(r, c), bone(p));
+    };
+    // Coarser than the outside.
+    let rows: Vec<usize> = (0..HEIGHTS.len()).filter(|r| r % 2 == 0).collect();
+    let columns: Vec<usize> = (0..COLUMNS).filter(|c| c % 2 == 0 || c + 1 == COLUMNS).collect();
+    for r in &rows {
+        for c in &columns {
+            add(&mut lining, *r, *c);
+        }
+    }
+    lining.quads(0, rows.len() as u32, columns.len() as u32, false);
+    // Rim: outer edge to inner edge.
+    let base = lining.vertices.len() as u32;
+    for (r, c) in edge {
+        let outer = jacket.vertices[r * COLUMNS + c];
         lining.vertex(outer.position, outer.uv, outer.weights);
-        lining.vertex(inner.position, inner.uv, inner.weights);
+        add(&mut lining, *r, *c);
     }
     for i in 0..edge.len() as u32 - 1 {
         let (a, b) = (base + 2 * i, base + 2 * i + 2);
         lining.quad(a, a + 1, b + 1, b);
     }
-    [jacket, lining]
+    lining
 }
 
 /// The blouse: a shell under the jacket with a stand-up collar.
@@ -159,7 +170,7 @@ pub(super) fn blouse(skeleton: &Skeleton) -> Part {
         .map(|(i, (y, out))| {
             if i < 5 {
                 let radius = 0.0345 + 0.003 * smoothstep(1.27, 1.25, *y) + out;
-                return ring(Vec3::new(0.0, *y, -0.0232), radius * 1.05, radius, radius, 40)
+                return ring(Vec3::new(0.0, *y, -0.0232), radius * 1.05, radius, radius, 28)
                     .into_iter()
                     // The collar opens in front.
                     .map(|p| p - Vec3::Y * 0.006 * smoothstep(-0.005, 0.02, p.z))
@@ -168,7 +179,7 @@ pub(super) fn blouse(skeleton: &Skeleton) -> Part {
             // Narrower than the body under the arms: there the jacket follows them, and nobody looks.
             let [half, front, back] = torso(*y);
             let narrow = 0.048 * smoothstep(1.0, 1.1, *y) * smoothstep(1.245, 1.2, *y);
-            ring(Vec3::new(0.0, *y, 0.0), half + out - narrow, front + out, back + out - narrow * 0.4, 40)
+            ring(Vec3::new(0.0, *y, 0.0), half + out - narrow, front + out, back + out - narrow * 0.4, 28)
         })
         .collect();
     let (top, bottom) = (1.275f32, 0.93f32);

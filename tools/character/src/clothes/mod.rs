@@ -5,6 +5,7 @@ mod jacket;
 mod paint;
 mod skirt;
 mod sleeve;
+mod trim;
 mod tuft;
 
 use crate::mesh::Part;

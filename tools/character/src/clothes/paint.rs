@@ -152,12 +152,12 @@ fn fur_height(uv: Vec2) -> f32 {
 
 /// Fur: v runs along a tuft from its root, in the shade of its neighbours, to its light tips.
 pub(super) fn fur() -> Picture {
-    let [root, body, light, line] = [0xa899c6, 0xe9e1f2, 0xfffdfb, 0xb9a9d2].map(rgb);
+    let [root, body, light, line] = [0xbcaed6, 0xf5f0f9, 0xffffff, 0xcabddf].map(rgb);
     Picture::from_fn(1024, 512, |uv| {
         let at = along_tuft(uv);
         let v = at.y + (strokes(at, 48.0, 21) - 0.5) * 0.22;
-        let mut color = mix(root, body, smoothstep(0.12, 0.42, v));
-        color = mix(color, light, smoothstep(0.45, 0.8, v));
+        let mut color = mix(root, body, smoothstep(0.06, 0.34, v));
+        color = mix(color, light, smoothstep(0.36, 0.65, v));
         let pen = smoothstep(0.8, 0.93, strokes(at, 72.0, 22));
         color = mix(color, line, 0.35 * pen * smoothstep(0.8, 0.4, at.y));
         [color.x, color.y, color.z, 1.0]

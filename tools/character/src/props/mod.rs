@@ -83,14 +83,7 @@ fn materials(model: &mut Model) {
         ..Material::default()
     };
     model.materials.extend([
-        Material {
-            name: "Cloth_Bow",
-            color: srgba(0xb3263f),
-            shade: srgb(0x74184a),
-            outline: 0.0008,
-            outline_color: srgb(0x3c0a1c),
-            ..Material::default()
-        },
+        bow::material(),
         metal("Metal_Brooch", 0x8c5a22, 0x4e2b1e, 0x2e180f, [0.8; 3]),
         metal("Metal_Pin", 0x6c7590, 0x3f4462, 0x23243c, [0.42, 0.56, 0.95]),
         Material {
