@@ -273,7 +273,7 @@ fn frame(part: &mut Part, center: Vec3, right: Vec3, up: Vec3, bone: crate::skel
     let mut rows: Vec<Vec<Vec3>> = (0..n)
         .map(|i| {
             let away = (corners[i] - center).normalize();
-            ring_in(corners[i], away * WIRE, out * WIRE, 8)
+            ring_in(corners[i], away * WIRE, out * WIRE, 6)
         })
         .collect();
     rows.push(rows[0].clone());

@@ -40,14 +40,14 @@ pub(super) fn skin() -> Picture {
                 c.glow(Vec2::new(edge, y), Vec2::new(0.02, 0.016), 0xf5ab9f, 0.45);
             }
             let crease = [Vec2::new(x + 0.03, y), Vec2::new(x + 0.042, y + 0.004), Vec2::new(x + 0.054, y)];
-            c.stroke(&curve(&crease, false), 0xe0958a, 0.55, 0.002);
+            c.stroke(&curve(&crease, false), 0xe0958a, 0.4, 0.002);
         }
         // Tips are rosy all round; nails lie on the back, where the ring begins and ends.
         c.linear(
             &square(x, 0.84, x + 0.084, 0.95),
             Vec2::new(0.0, 0.85),
             Vec2::new(0.0, 0.93),
-            &[(0.0, 0xf9c0b4, 0.0), (1.0, 0xf6b4a8, 0.4)],
+            &[(0.0, 0xf9c0b4, 0.0), (1.0, 0xf6b4a8, 0.22)],
         );
         for edge in [x, x + 0.084] {
             let nail = ellipse(Vec2::new(edge, 0.888), Vec2::new(0.0115, 0.024));

@@ -52,12 +52,12 @@ fn frame(t: f32) -> (Vec3, Vec3, Vec3) {
 
 /// Rows of tufts on the collar: angle from away (0) over up (90) inwards; how many, how large, and how they are shifted.
 const ROWS: [(f32, u32, f32, f32); 4] =
-    [(-44.0, 30, 1.0, 0.0), (8.0, 30, 1.08, 0.5), (62.0, 30, 0.94, 0.0), (122.0, 26, 0.66, 0.5)];
+    [(-44.0, 30, 1.0, 0.0), (8.0, 30, 1.08, 0.5), (62.0, 30, 0.94, 0.0), (122.0, 22, 0.7, 0.5)];
 
 /// The collar: rows of tufts over a core.
 pub(super) fn collar(skeleton: &Skeleton) -> Part {
     let mut part = Part::new("FurCollar", "Jacket_Fur");
-    const STEPS: usize = 29;
+    const STEPS: usize = 23;
     let place = |s: usize| (2.0 * s as f32 - (STEPS - 1) as f32) / (STEPS - 1) as f32;
     let rows: Vec<Vec<Vec3>> = (0..STEPS)
         .map(|s| {
@@ -65,7 +65,7 @@ pub(super) fn collar(skeleton: &Skeleton) -> Part {
             let (p, r) = course(t);
             let (_, away, up) = frame(t);
             let close = (1.0 - t.abs().powi(12)).max(0.05).sqrt();
-            ring_in(p, up * r * 0.86 * close, away * r * 0.86 * close, 8)
+            ring_in(p, up * r * 0.86 * close, away * r * 0.86 * close, 7)
         })
         .collect();
     let first = grid(&mut part, &rows, true, |r, c| Vec2::new(4.0 * r, 0.05 * c), |p| weights::torso(skeleton, p));

@@ -74,6 +74,8 @@ fn materials(model: &mut Model) {
         double_sided: true,
         outline: 0.0007,
         outline_color: srgb(0x8378a6),
+        // Hairs are dark at their roots; snow shines.
+        emission: [0.05, 0.046, 0.058],
         substance: Some("fluff"),
         ..Material::default()
     };

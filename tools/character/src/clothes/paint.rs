@@ -92,17 +92,29 @@ pub(super) fn jacket() -> Picture {
             0.003,
         );
     }
-    // Folds at the waist and in the elbow.
-    for i in 0..6 {
-        let x = 0.08 + 0.09 * i as f32;
-        let fold = [Vec2::new(x, 0.62), Vec2::new(x + 0.02, 0.72), Vec2::new(x + 0.012, 0.83)];
-        c.stroke(&curve(&fold, false), 0x2b3058, 0.55, 0.009);
+    // Folds at the waist, that fan out from it: a line thin at its ends, and its shade.
+    for (x, lean, long) in [(0.05, 0.012, 0.16), (0.13, -0.014, 0.12), (0.27, 0.02, 0.2), (0.34, 0.03, 0.13), (0.43, -0.02, 0.15)] {
+        let at = |t: f32, wide: f32| Vec2::new(x + lean * t * t + wide * (1.0 - t) * t * 4.0, 0.73 - long * t);
+        let shape = |wide: f32| {
+            let up = (0..=8).map(|i| at(i as f32 / 8.0, 0.0));
+            let down = (0..=8).rev().map(|i| at(i as f32 / 8.0, wide));
+            polyline(&up.chain(down).collect::<Vec<_>>(), true)
+        };
+        c.fill(&shape(0.02), 0x2c3263, 0.85);
+        c.fill(&shape(0.0052), 0x20254a, 1.0);
     }
     // Below each crease of the sleeve lies its shade.
     for line in sleeve::creases() {
-        let lower = line.iter().rev().map(|(p, deep)| *p + Vec2::Y * 0.02 * deep.max(0.0));
+        let lower = line.iter().rev().map(|(p, deep)| *p + Vec2::Y * 0.03 * deep.max(0.0));
         let shape: Vec<Vec2> = line.iter().map(|(p, _)| *p).chain(lower).collect();
-        c.fill(&polyline(&shape, true), 0x2c3263, 0.8);
+        c.fill(&polyline(&shape, true), 0x2b3162, 1.0);
+    }
+    // Over it the crest catches light.
+    for line in sleeve::creases() {
+        let crest: Vec<Vec2> = line.iter().filter(|(_, deep)| *deep > 0.3).map(|(p, _)| *p - Vec2::Y * 0.021).collect();
+        if crest.len() > 1 {
+            c.stroke(&polyline(&crest, false), 0x53629c, 0.75, 0.006);
+        }
     }
     // The creases themselves: drawn where the mesh folds, thin at their ends.
     for line in sleeve::creases() {
@@ -114,7 +126,7 @@ pub(super) fn jacket() -> Picture {
         }
     }
     // The seam of the shoulder.
-    c.fill(&square(0.645, 0.0, 1.0, 0.036), 0x252a4c, 1.0);
+    c.fill(&square(0.645, 0.044, 1.0, 0.0555), 0x20254a, 1.0);
     // Piping along the front edge and the hem.
     for piping in piping() {
         c.fill(&piping, 0xe8a33d, 1.0);

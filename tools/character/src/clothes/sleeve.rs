@@ -37,8 +37,7 @@ const RINGS: &[Ring] = &[
     (0.178, 0.0468, fold(205.0, 80.0, -0.0034, 0.014)),
     (0.192, 0.0462, fold(140.0, 70.0, 0.004, 0.022)),
     (0.2, 0.0448, fold(140.0, 70.0, -0.0028, 0.026)),
-    (0.222, 0.0436, None),
-    (0.246, 0.0424, None),
+    (0.232, 0.0432, None),
     // The elbow: folds lean to and fro round the bend, strongest in front.
     (0.266, 0.0414, fold(75.0, 100.0, 0.0056, 0.018)),
     (0.277, 0.04, fold(75.0, 100.0, -0.004, 0.014)),
@@ -49,14 +48,12 @@ const RINGS: &[Ring] = &[
     (0.354, 0.0406, fold(115.0, 105.0, 0.0066, -0.013)),
     (0.365, 0.0398, fold(115.0, 105.0, -0.0042, -0.018)),
     (0.384, 0.0408, None),
-    (0.402, 0.0412, None),
-    (0.425, 0.0414, None),
+    (0.415, 0.0413, None),
     // Over the cuff the cloth gathers.
     (0.44, 0.0422, fold(30.0, 140.0, 0.0044, 0.007)),
     (0.449, 0.0394, fold(30.0, 140.0, -0.003, 0.006)),
     (0.459, 0.0406, fold(205.0, 150.0, 0.0048, 0.005)),
     (0.467, 0.0372, fold(205.0, 150.0, -0.0026, 0.004)),
-    (0.476, 0.0328, None),
     (0.482, 0.0302, None),
     (0.482, 0.028, None),
     (0.468, 0.0275, None),
@@ -150,7 +147,7 @@ pub(super) fn add(jacket: &mut Part, skeleton: &Skeleton) {
                 .map(|i| {
                     let p = loop_places[i].lerp(first_ring[i], t);
                     let out = (p - Vec3::new(p.x, 1.205, -0.016)).normalize_or(Vec3::Y);
-                    let seam = if k == 0 { 0.0028 } else { 0.0 };
+                    let seam = if k == 0 { 0.0018 } else { 0.0 };
                     let full = 0.006 * (1.0 - (2.0 * t - 1.0).powi(2)) * smoothstep(-0.2, 0.6, out.y);
                     p + out * (full + seam * smoothstep(-0.6, 0.2, out.y))
                 })
@@ -180,6 +177,8 @@ pub(super) fn raise_folds(jacket: &mut Part) {
     for v in jacket.vertices.iter_mut().filter(|v| v.uv.x > 0.65 && v.position.x.abs() > 0.145) {
         let [y, z] = axis(v.position.x.abs());
         let round = Vec3::new(0.0, v.position.y - y, v.position.z - z).normalize_or(Vec3::Y);
-        v.normal = (v.normal + (v.normal - round) * 1.1).normalize_or(round);
+        // The large folds of the armpit have enough of it.
+        let share = 0.35 + 0.85 * smoothstep(0.21, 0.27, v.position.x.abs());
+        v.normal = (v.normal + (v.normal - round) * share).normalize_or(round);
     }
 }
