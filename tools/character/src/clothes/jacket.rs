@@ -47,6 +47,15 @@ fn in_hole(r: usize, c: usize) -> bool {
     (HOLE[0]..HOLE[1]).contains(&r) && (HOLE[2]..HOLE[3]).contains(&c)
 }
 
+/// Step into the hole from one of its ends.
+fn corner(at: usize, start: usize, end: usize) -> Option<isize> {
+    match at {
+        _ if at == start => Some(1),
+        _ if at == end => Some(-1),
+        _ => None,
+    }
+}
+
 /// The loop of the armhole: over the top to the front, down, back below, up; with row and column.
 pub(super) fn armhole() -> Vec<(usize, usize)> {
     let [top, bottom, back, front] = HOLE;
@@ -72,6 +81,11 @@ pub(super) fn left(skeleton: &Skeleton) -> [Part; 2] {
     for (r, y) in HEIGHTS.iter().enumerate() {
         for c in 0..COLUMNS {
             let mut p = body_point(*y, edge_column(c), OUT);
+            // The armhole has no corners.
+            if let [Some(down), Some(on)] = [corner(r, HOLE[0], HOLE[1]), corner(c, HOLE[2], HOLE[3])] {
+                let y = y + 0.4 * (HEIGHTS[r.wrapping_add_signed(down)] - y);
+                p = body_point(y, edge_column(c) + 0.4 * on as f32 / (COLUMNS - 1) as f32, OUT);
+            }
             if c == 0 {
                 p.x = 0.0;
             }

@@ -111,9 +111,12 @@ pub(super) fn jacket() -> Picture {
     }
     // Over it the crest catches light.
     for line in sleeve::creases() {
-        let crest: Vec<Vec2> = line.iter().filter(|(_, deep)| *deep > 0.3).map(|(p, _)| *p - Vec2::Y * 0.021).collect();
-        if crest.len() > 1 {
-            c.stroke(&polyline(&crest, false), 0x53629c, 0.75, 0.006);
+        for pair in line.windows(2) {
+            let deep = 0.5 * (pair[0].1 + pair[1].1) - 0.35;
+            if deep > 0.0 {
+                let up = Vec2::Y * 0.022;
+                c.stroke(&polyline(&[pair[0].0 - up, pair[1].0 - up], false), 0x4a588e, 1.0, 0.009 * deep);
+            }
         }
     }
     // The creases themselves: drawn where the mesh folds, thin at their ends.

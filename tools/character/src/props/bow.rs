@@ -6,7 +6,8 @@ use super::before_chest;
 use crate::body::weights;
 use crate::loft::{grid, ring};
 use crate::mesh::Part;
-use crate::model::{Material, srgb, srgba};
+use crate::model::{Material, srgb};
+use crate::picture::{Picture, rgb, smoothstep};
 use crate::skeleton::Skeleton;
 
 /// Height of the knot.
@@ -16,8 +17,9 @@ pub(super) const KNOT_Y: f32 = 1.2445;
 pub(super) fn material() -> Material {
     Material {
         name: "Cloth_Bow",
-        color: srgba(0xb8243f),
-        shade: srgb(0x74184a),
+        texture: Some("bow"),
+        shade: srgb(0xa878b8),
+        shade_texture: Some("bow"),
         outline: 0.0008,
         outline_color: srgb(0x3c0a1c),
         // Ribbons are seen from both sides.
@@ -26,13 +28,39 @@ pub(super) fn material() -> Material {
     }
 }
 
+/// Ribbon: loops in the left half of the texture, tails in the right one; v runs along them from the knot.
+pub(super) fn paint() -> Picture {
+    let [cloth, light, fold, edge] = [0xbf2742, 0xd2384f, 0x8c1638, 0x7c1236].map(rgb);
+    Picture::from_fn(512, 512, |uv| {
+        let (tail, across) = (uv.x >= 0.5, (uv.x * 2.0).fract() * 2.0 - 1.0);
+        let mut color = cloth;
+        // Gathers run out of the knot and end in points; a tail has one.
+        let gathers: &[(f32, f32, f32)] = if tail {
+            &[(0.12, 0.55, 0.12), (-0.4, 0.3, 0.1)]
+        } else {
+            &[(-0.36, 0.36, 0.17), (0.04, 0.24, 0.15), (0.42, 0.33, 0.17)]
+        };
+        for (at, long, wide) in gathers {
+            let t = (uv.y / long).min(1.0);
+            let inside = wide * (1.0 - t) - (across - at * (1.0 + 0.25 * t)).abs();
+            color = color.lerp(fold, smoothstep(-0.012, 0.012, inside) * smoothstep(1.0, 0.97, t));
+        }
+        // Light where the cloth turns over.
+        let turn = if tail { 0.62 } else { 0.38 };
+        color = color.lerp(light, smoothstep(0.09, 0.07, (uv.y - turn).abs()) * smoothstep(0.8, 0.75, across.abs()) * 0.8);
+        // A woven edge.
+        color = color.lerp(edge, smoothstep(0.025, 0.015, (across.abs() - 0.86).abs()));
+        [color.x, color.y, color.z, 1.0]
+    })
+}
+
 /// A loop from the knot out in front, round, and back behind: place from the knot, half width, depth of the gathers.
 const LOOP: &[([f32; 3], f32, f32)] = &[
-    ([0.004, 0.0, 0.0035], 0.006, 0.0022),
-    ([0.011, 0.0008, 0.0072], 0.0092, 0.0024),
-    ([0.019, 0.002, 0.0098], 0.0132, 0.0017),
-    ([0.028, 0.0032, 0.0102], 0.0168, 0.0009),
-    ([0.0372, 0.0042, 0.0078], 0.0186, 0.0003),
+    ([0.004, 0.0, 0.0035], 0.006, 0.0030),
+    ([0.011, 0.0008, 0.0072], 0.0092, 0.0036),
+    ([0.019, 0.002, 0.0098], 0.0132, 0.003),
+    ([0.028, 0.0032, 0.0102], 0.0168, 0.0018),
+    ([0.0372, 0.0042, 0.0078], 0.0186, 0.0007),
     ([0.0436, 0.0048, 0.0032], 0.0188, 0.0),
     ([0.0455, 0.005, -0.0016], 0.0182, 0.0),
     ([0.0425, 0.0046, -0.0052], 0.017, 0.0),
@@ -71,7 +99,8 @@ pub(super) fn build(skeleton: &Skeleton) -> Part {
             ACROSS.iter().map(|s| knot + point(*s)).collect()
         })
         .collect();
-    grid(&mut left, &rows, false, |r, c| Vec2::new(c, r), bone);
+    grid(&mut left, &rows, false, |r, c| Vec2::new(0.002 + 0.496 * c, r), bone);
+    let loops = left.vertices.len();
 
     let last = TAIL.len() - 1;
     let rows: Vec<Vec<Vec3>> = TAIL
@@ -89,8 +118,16 @@ pub(super) fn build(skeleton: &Skeleton) -> Part {
             ACROSS.iter().step_by(2).map(|s| point(*s)).collect()
         })
         .collect();
-    grid(&mut left, &rows, false, |r, c| Vec2::new(c, r), bone);
+    grid(&mut left, &rows, false, |r, c| Vec2::new(0.502 + 0.496 * c, r), bone);
     left.smooth_normals();
+    // Edges turn aside: outlines stand out there.
+    for (i, v) in left.vertices.iter_mut().enumerate() {
+        let across = (v.uv.x * 2.0).fract() * 2.0 - 1.0;
+        if across.abs() > 0.95 {
+            let aside = if i < loops { Vec3::Y } else { Vec3::X };
+            v.normal = (v.normal + aside * across.signum()).normalize();
+        }
+    }
     let right = left.mirrored(skeleton);
     left.append(&right);
 
@@ -101,7 +138,7 @@ pub(super) fn build(skeleton: &Skeleton) -> Part {
             .iter()
             .map(|(y, half, deep)| ring(knot + Vec3::Y * *y, *half, *deep, 0.003, 12))
             .collect();
-    grid(&mut middle, &rows, true, |r, c| Vec2::new(c, r), bone);
+    grid(&mut middle, &rows, true, |_, _| Vec2::new(0.25, 0.7), bone);
     middle.smooth_normals();
     left.append(&middle);
     left

@@ -63,7 +63,8 @@ const STONE_STANDS: f32 = 0.019;
 fn materials(model: &mut Model) {
     let texture = |name, paint| Texture { name, paint, repeat: false };
     model.textures.extend([
-        texture("metal_highlight", paint::metal_highlight as fn() -> _),
+        texture("bow", bow::paint as fn() -> _),
+        texture("metal_highlight", paint::metal_highlight),
         texture("amber", paint::amber),
         texture("amber_matcap", paint::amber_matcap),
         texture("diamond_matcap", paint::diamond_matcap),
