@@ -122,10 +122,8 @@ fn build_finger(part: &mut Part, skeleton: &Skeleton, index: usize, finger: (&st
             let t = s / total;
             let left = total - s;
             let mut radius = (root + (end - root) * t) * (left / 0.0085).min(1.0).powf(0.62);
-            if name == "Thumb" {
-                // It grows out of its ball.
-                radius *= 0.62 + 0.38 * smoothstep(0.0, 0.022, *s);
-            }
+            // It grows out of the palm.
+            radius *= 0.6 + 0.4 * smoothstep(0.0, if name == "Thumb" { 0.022 } else { lengths[1] + 0.004 }, *s);
             let knuckle: f32 = lengths[2..4].iter().map(|j| (-((s - j) / 0.0055).powi(2)).exp()).sum();
             ring_in(Vec3::ZERO, Vec3::X, Vec3::Y, COLUMNS)
                 .into_iter()

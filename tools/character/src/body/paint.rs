@@ -106,10 +106,10 @@ pub(super) fn boots() -> Picture {
     c.fill(&square(0.0, 0.0, 1.0, 0.085), 0x6e4d41, 1.0);
     c.fill(&square(0.0, 0.082, 1.0, 0.09), 0x241820, 1.0);
     // The tongue under the laces, eyelets beside it.
-    let tongue = [Vec2::new(0.447, 0.092), Vec2::new(0.553, 0.092), Vec2::new(0.534, 0.64), Vec2::new(0.466, 0.64)];
+    let tongue = [Vec2::new(0.447, 0.092), Vec2::new(0.553, 0.092), Vec2::new(0.538, 0.575), Vec2::new(0.462, 0.575)];
     c.fill(&polyline(&tongue, true), 0x33222a, 1.0);
     for side in [-1.0f32, 1.0] {
-        let edge = [Vec2::new(0.5 + side * 0.053, 0.092), Vec2::new(0.5 + side * 0.034, 0.64)];
+        let edge = [Vec2::new(0.5 + side * 0.053, 0.092), Vec2::new(0.5 + side * 0.038, 0.575)];
         c.stroke(&polyline(&edge, false), 0x7a5747, 1.0, 0.005);
         let seam = [
             Vec2::new(0.5 + side * 0.09, 0.095),

@@ -75,7 +75,7 @@ fn materials(model: &mut Model) {
         outline: 0.0007,
         outline_color: srgb(0x8378a6),
         // Hairs are dark at their roots; snow shines.
-        emission: [0.05, 0.046, 0.058],
+        emission: [0.085, 0.08, 0.095],
         substance: Some("fluff"),
         ..Material::default()
     };

@@ -184,8 +184,8 @@ pub(super) fn fur_normal() -> Picture {
     const STEP: f32 = 1.0 / 1024.0;
     Picture::from_fn(1024, 512, |uv| {
         let slope = |d: Vec2| (fur_height(uv + d) - fur_height(uv - d)) / (2.0 * STEP);
-        // Slopes of the texture, as if a tuft were as high as a quarter of its width.
-        let n = Vec3::new(-slope(Vec2::X * STEP) / 60.0, slope(Vec2::Y * STEP) / 60.0, 1.0).normalize();
+        // Slopes of the texture, softened: the tufts have a form of their own.
+        let n = Vec3::new(-slope(Vec2::X * STEP) / 130.0, slope(Vec2::Y * STEP) / 300.0, 1.0).normalize();
         [n.x * 0.5 + 0.5, n.y * 0.5 + 0.5, n.z * 0.5 + 0.5, 1.0]
     })
 }

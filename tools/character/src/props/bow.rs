@@ -46,8 +46,9 @@ pub(super) fn paint() -> Picture {
             color = color.lerp(fold, smoothstep(-0.012, 0.012, inside) * smoothstep(1.0, 0.97, t));
         }
         // Light where the cloth turns over.
-        let turn = if tail { 0.62 } else { 0.38 };
-        color = color.lerp(light, smoothstep(0.09, 0.07, (uv.y - turn).abs()) * smoothstep(0.8, 0.75, across.abs()) * 0.8);
+        let turn = if tail { 0.6 + 0.1 * across } else { 0.42 };
+        let lens = 0.1 * (1.0 - (across / 0.8).powi(2)) - (uv.y - turn).abs();
+        color = color.lerp(light, smoothstep(-0.006, 0.006, lens));
         // A woven edge.
         color = color.lerp(edge, smoothstep(0.025, 0.015, (across.abs() - 0.86).abs()));
         [color.x, color.y, color.z, 1.0]
