@@ -89,7 +89,11 @@ fn build_finger(part: &mut Part, skeleton: &Skeleton, index: usize, finger: (&st
     let mut places = bones.map(|b| skeleton.bones[b].position).to_vec();
     let way = (places[2] - places[1]).normalize();
     // The tip bends down a little, that of the little finger outwards; the root lies inside the palm.
-    let outwards = if name == "Little" { Vec3::NEG_Z * 0.12 } else { Vec3::ZERO };
+    let outwards = if name == "Little" {
+        Vec3::NEG_Z * 0.12
+    } else {
+        Vec3::ZERO
+    };
     places.push(places[2] + (way - Vec3::Y * 0.1 + outwards).normalize() * last);
     let first_way = (places[1] - places[0]).normalize();
     if name != "Thumb" {

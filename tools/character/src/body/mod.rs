@@ -1,5 +1,6 @@
 //! The body: skin where it shows, stockings, boots, and the colliders of the swinging parts.
 
+mod boot;
 mod hand;
 mod leg;
 mod paint;
@@ -25,7 +26,7 @@ pub fn add(model: &mut Model) {
     let mut shorts = leg::shorts(skeleton);
     shorts.smooth_normals();
     let parts =
-        [both(skin), both(leg::stocking(skeleton)), both(leg::boot(skeleton)), both(leg::buckles(skeleton)), shorts];
+        [both(skin), both(leg::stocking(skeleton)), both(boot::build(skeleton)), both(boot::buckles(skeleton)), shorts];
     model.parts.extend(parts);
     materials(model);
     colliders(model);

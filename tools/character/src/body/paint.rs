@@ -81,7 +81,8 @@ pub(super) fn stocking() -> Picture {
             // Ribs of the knit, rounded off above.
             let across = ((uv.x * 72.0).fract() - 0.5).abs();
             color = mix(band, rib, smoothstep(0.24, 0.4, across) * smoothstep(0.008, 0.014, uv.y));
-            let lines = smoothstep(0.0105, 0.0095, (uv.y - 0.028).abs()) + smoothstep(0.004, 0.003, (uv.y - 0.05).abs());
+            let lines =
+                smoothstep(0.0105, 0.0095, (uv.y - 0.028).abs()) + smoothstep(0.004, 0.003, (uv.y - 0.05).abs());
             color = mix(color, line * if across > 0.32 { 0.86 } else { 1.0 }, lines);
         }
         color = mix(color, rib, smoothstep(0.0025, 0.0015, (uv.y - BAND).abs()));
@@ -117,7 +118,11 @@ pub(super) fn boots() -> Picture {
             Vec2::new(0.5 + side * 0.12, 0.66),
         ];
         c.stroke(&curve(&seam, false), 0x281a20, 1.0, 0.004);
-        let shine = [Vec2::new(0.5 + side * 0.15, 0.16), Vec2::new(0.5 + side * 0.148, 0.28), Vec2::new(0.5 + side * 0.14, 0.4)];
+        let shine = [
+            Vec2::new(0.5 + side * 0.15, 0.16),
+            Vec2::new(0.5 + side * 0.148, 0.28),
+            Vec2::new(0.5 + side * 0.14, 0.4),
+        ];
         c.stroke(&curve(&shine, false), 0x7d5c50, 0.8, 0.012);
     }
     // Toe cap and heel patch.

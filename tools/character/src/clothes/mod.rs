@@ -31,15 +31,8 @@ pub fn add(model: &mut Model) {
     blouse.smooth_normals();
     let mut belt = skirt::belt(skeleton);
     belt.smooth_normals();
-    let parts = [
-        blouse,
-        jacket,
-        both(lining, true),
-        fur::collar(skeleton),
-        both(fur::cuff(skeleton), false),
-        skirt,
-        belt,
-    ];
+    let parts =
+        [blouse, jacket, both(lining, true), fur::collar(skeleton), both(fur::cuff(skeleton), false), skirt, belt];
     model.parts.extend(parts);
     materials(model);
 }
@@ -75,7 +68,7 @@ fn materials(model: &mut Model) {
         outline: 0.0007,
         outline_color: srgb(0x8378a6),
         // Hairs are dark at their roots; snow shines.
-        emission: [0.085, 0.08, 0.095],
+        emission: [0.06, 0.056, 0.07],
         substance: Some("fluff"),
         ..Material::default()
     };

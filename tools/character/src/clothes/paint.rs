@@ -93,7 +93,9 @@ pub(super) fn jacket() -> Picture {
         );
     }
     // Folds at the waist, that fan out from it: a line thin at its ends, and its shade.
-    for (x, lean, long) in [(0.05, 0.012, 0.16), (0.13, -0.014, 0.12), (0.27, 0.02, 0.2), (0.34, 0.03, 0.13), (0.43, -0.02, 0.15)] {
+    for (x, lean, long) in
+        [(0.05, 0.012, 0.16), (0.13, -0.014, 0.12), (0.27, 0.02, 0.2), (0.34, 0.03, 0.13), (0.43, -0.02, 0.15)]
+    {
         let at = |t: f32, wide: f32| Vec2::new(x + lean * t * t + wide * (1.0 - t) * t * 4.0, 0.73 - long * t);
         let shape = |wide: f32| {
             let up = (0..=8).map(|i| at(i as f32 / 8.0, 0.0));
@@ -167,11 +169,11 @@ fn fur_height(uv: Vec2) -> f32 {
 
 /// Fur: v runs along a tuft from its root, in the shade of its neighbours, to its light tips.
 pub(super) fn fur() -> Picture {
-    let [root, body, light, line] = [0xbcaed6, 0xf5f0f9, 0xffffff, 0xcabddf].map(rgb);
+    let [root, body, light, line] = [0x9f8fc6, 0xf5f0f9, 0xffffff, 0xcabddf].map(rgb);
     Picture::from_fn(1024, 512, |uv| {
         let at = along_tuft(uv);
         let v = at.y + (strokes(at, 48.0, 21) - 0.5) * 0.22;
-        let mut color = mix(root, body, smoothstep(0.06, 0.34, v));
+        let mut color = mix(root, body, smoothstep(0.08, 0.32, v));
         color = mix(color, light, smoothstep(0.36, 0.65, v));
         let pen = smoothstep(0.8, 0.93, strokes(at, 72.0, 22));
         color = mix(color, line, 0.35 * pen * smoothstep(0.8, 0.4, at.y));
@@ -202,11 +204,7 @@ const BANDS: [(f32, f32, u32); 3] = [(0.835, 0.026, 0x333c6e), (0.878, 0.0045, 0
 /// Width of the skirt's outline: none in the folds, which it would fill, and none inside.
 pub(super) fn skirt_outline() -> Picture {
     Picture::from_fn(1024, 64, |uv| {
-        let value = if uv.y > 0.95 || pleat(uv).1 {
-            0.0
-        } else {
-            1.0
-        };
+        let value = if uv.y > 0.95 || pleat(uv).1 { 0.0 } else { 1.0 };
         [value, value, value, 1.0]
     })
 }

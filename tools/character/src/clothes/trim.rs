@@ -27,8 +27,16 @@ pub(super) fn piping(jacket: &mut Part, skeleton: &Skeleton, line: &[Vec3], radi
 }
 
 /// The left lapel, from the break of the front edge up under the fur: height, and share of the half's width that it takes.
-const LAPEL: &[[f32; 2]] =
-    &[[1.186, 0.13], [1.166, 0.2], [1.152, 0.232], [1.13, 0.205], [1.105, 0.155], [1.08, 0.098], [1.055, 0.036], [1.045, 0.008]];
+const LAPEL: &[[f32; 2]] = &[
+    [1.186, 0.13],
+    [1.166, 0.2],
+    [1.152, 0.232],
+    [1.13, 0.205],
+    [1.105, 0.155],
+    [1.08, 0.098],
+    [1.055, 0.036],
+    [1.045, 0.008],
+];
 
 /// Adds the left lapel.
 pub(super) fn lapel(jacket: &mut Part, skeleton: &Skeleton) {

@@ -33,11 +33,8 @@ pub(super) const UV: [f32; 2] = [0.12, 0.2];
 const MAIN: &[[f32; 2]] = &[[0.0, 0.72], [0.27, 1.0], [0.55, 0.9], [0.8, 0.52]];
 const SIDE: &[[f32; 2]] = &[[0.0, 0.7], [0.4, 1.0], [0.75, 0.6]];
 /// Cones of a clump: stations, turn to the side, length, width, place to the side, height.
-const CONES: [(&[[f32; 2]], f32, f32, f32, f32, f32); 3] = [
-    (MAIN, 0.0, 1.0, 1.0, 0.0, 0.0),
-    (SIDE, 0.42, 0.76, 0.62, 0.55, -0.3),
-    (SIDE, -0.5, 0.62, 0.58, -0.58, -0.36),
-];
+const CONES: [(&[[f32; 2]], f32, f32, f32, f32, f32); 3] =
+    [(MAIN, 0.0, 1.0, 1.0, 0.0, 0.0), (SIDE, 0.42, 0.76, 0.62, 0.55, -0.3), (SIDE, -0.5, 0.62, 0.58, -0.58, -0.36)];
 
 /// Adds a tuft. Its normals are those of its cones; see `soften`.
 pub(super) fn add(part: &mut Part, tuft: &Tuft, weights: Weights) {

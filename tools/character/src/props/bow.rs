@@ -113,9 +113,7 @@ pub(super) fn build(skeleton: &Skeleton) -> Part {
             let right = Vec3::new(c, 0.28, s).normalize();
             // Cut out like a swallow's tail; a fold runs down the middle.
             let notch = if i == last { 0.0115 } else { 0.0 };
-            let point = |s: f32| {
-                middle + right * s * *half + Vec3::new(0.0, notch, 0.0016) * (1.0 - s.abs())
-            };
+            let point = |s: f32| middle + right * s * *half + Vec3::new(0.0, notch, 0.0016) * (1.0 - s.abs());
             ACROSS.iter().step_by(2).map(|s| point(*s)).collect()
         })
         .collect();
@@ -134,11 +132,17 @@ pub(super) fn build(skeleton: &Skeleton) -> Part {
 
     let mut middle = Part::new("Bow", "Cloth_Bow");
     // Height over the knot, width, depth: the ribbon round the gathers.
-    let rows: Vec<Vec<Vec3>> =
-        [(0.0125, 0.0052, 0.003), (0.0118, 0.0082, 0.0068), (0.004, 0.0088, 0.0092), (-0.004, 0.0088, 0.0092), (-0.0118, 0.0082, 0.0068), (-0.0125, 0.0052, 0.003)]
-            .iter()
-            .map(|(y, half, deep)| ring(knot + Vec3::Y * *y, *half, *deep, 0.003, 12))
-            .collect();
+    let rows: Vec<Vec<Vec3>> = [
+        (0.0125, 0.0052, 0.003),
+        (0.0118, 0.0082, 0.0068),
+        (0.004, 0.0088, 0.0092),
+        (-0.004, 0.0088, 0.0092),
+        (-0.0118, 0.0082, 0.0068),
+        (-0.0125, 0.0052, 0.003),
+    ]
+    .iter()
+    .map(|(y, half, deep)| ring(knot + Vec3::Y * *y, *half, *deep, 0.003, 12))
+    .collect();
     grid(&mut middle, &rows, true, |_, _| Vec2::new(0.25, 0.7), bone);
     middle.smooth_normals();
     left.append(&middle);
