@@ -52,8 +52,8 @@ pub(super) fn stocking(skeleton: &Skeleton) -> Part {
     let mut part = Part::new("Stockings", "Stocking");
     // The band: turned in above, a step below.
     let heights = [
-        0.622, STOCKING_TOP, 0.6338, 0.631, 0.609, 0.6062, 0.6055, 0.58, 0.55, 0.52, 0.495, 0.472, 0.452, 0.432, 0.41,
-        0.38, 0.345, 0.31, 0.28, 0.25, 0.22,
+        0.622, STOCKING_TOP, 0.6338, 0.631, 0.609, 0.6062, 0.6055, 0.601, 0.57, 0.54, 0.51, 0.485, 0.465, 0.445, 0.425,
+        0.4, 0.37, 0.335, 0.3, 0.26, 0.22,
     ];
     let rows: Vec<Vec<Vec3>> = heights
         .iter()
@@ -65,7 +65,6 @@ pub(super) fn stocking(skeleton: &Skeleton) -> Part {
                 2 => 0.0012,
                 3 | 4 => 0.0024,
                 5 => 0.002,
-                6 => 0.0006,
                 _ => 0.0014,
             };
             // It presses into the thigh.

@@ -49,12 +49,17 @@ pub(super) fn skin() -> Picture {
             Vec2::new(0.0, 0.93),
             &[(0.0, 0xf9c0b4, 0.0), (1.0, 0xf6b4a8, 0.22)],
         );
-        for edge in [x, x + 0.084] {
-            let nail = ellipse(Vec2::new(edge, 0.888), Vec2::new(0.0115, 0.024));
-            c.fill(&nail, 0xffd0cb, 1.0);
-            c.stroke(&nail, 0xd98a84, 0.8, 0.0018);
-            c.fill(&ellipse(Vec2::new(edge - 0.002, 0.88), Vec2::new(0.0025, 0.009)), 0xfff4f0, 0.9);
+        for (edge, side) in [(x, 1.0), (x + 0.084, -1.0f32)] {
+            let half: Vec<Vec2> = (0..=16)
+                .map(|k| {
+                    let (s, c) = (k as f32 / 16.0 * std::f32::consts::PI).sin_cos();
+                    Vec2::new(edge + side * (0.0108 * s - 0.002), 0.888 - 0.0235 * c)
+                })
+                .collect();
+            c.fill(&polyline(&half, true), 0xffd0cb, 1.0);
+            c.stroke(&polyline(&half[2..15], false), 0xd98a84, 0.8, 0.0018);
         }
+        c.fill(&ellipse(Vec2::new(x + 0.0045, 0.88), Vec2::new(0.0022, 0.008)), 0xfff4f0, 0.9);
     }
     c.finish()
 }

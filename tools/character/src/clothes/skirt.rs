@@ -96,11 +96,11 @@ fn weights(skeleton: &Skeleton, bones: &[[usize; 2]], p: Vec3) -> Weights {
 /// Corners of a box pleat: angle in pleats, depth of the fold, drop of the hem, u within the pleat. The face lies outside,
 /// the gap between two faces behind it.
 const CORNERS: [[f32; 4]; 5] = [
-    [0.0, 0.0, 0.0075, 0.0],
-    [0.41, 0.12, 0.0035, 0.41],
-    [0.82, 0.0, 0.0075, 0.82],
-    [0.86, 1.0, -0.0075, 0.86],
-    [0.96, 1.0, -0.0075, 0.96],
+    [0.0, 0.0, 0.0095, 0.0],
+    [0.41, 0.12, 0.004, 0.41],
+    [0.82, 0.0, 0.0095, 0.82],
+    [0.86, 1.0, -0.011, 0.86],
+    [0.96, 1.0, -0.011, 0.96],
 ];
 
 /// Angle of a corner of pleat `k`: a face lies in front.
