@@ -1,18 +1,17 @@
-//! Thighs, stockings, boots with soles and buckles, and the shorts under the skirt.
+//! Thighs, stockings, and the shorts under the skirt.
 
 use glam::{Vec2, Vec3};
 
 use super::shape::{leg, torso};
 use super::weights;
-use crate::loft::{grid, ring, ring_in, row};
+use crate::loft::{grid, ring, row};
 use crate::mesh::Part;
 use crate::picture::smoothstep;
 use crate::skeleton::Skeleton;
 
 const COLUMNS: usize = 20;
-/// Upper edge of the stockings, and of the boots.
+/// Upper edge of the stockings.
 const STOCKING_TOP: f32 = 0.634;
-const BOOT_TOP: f32 = 0.278;
 
 /// A ring of the left leg at height `y`, `out` metres above the skin.
 fn leg_ring(y: f32, out: f32) -> Vec<Vec3> {
@@ -28,13 +27,13 @@ fn leg_ring(y: f32, out: f32) -> Vec<Vec3> {
 /// The left thigh, from the hip to the stocking.
 pub(super) fn thigh(skeleton: &Skeleton) -> Part {
     let mut part = Part::new("Skin", "Body_Skin");
-    let heights = [0.84, 0.8, 0.76, 0.72, 0.69, 0.665, 0.645, 0.634, 0.622, 0.6];
+    let heights = [0.84, 0.79, 0.745, 0.71, 0.683, 0.665, 0.653, 0.643, 0.634, 0.615];
     let rows: Vec<Vec<Vec3>> = heights
         .iter()
         .map(|y| {
             // The hem presses in; the skin above it swells.
-            let swell = 0.0028 * (-((y - 0.646) / 0.012f32).powi(2)).exp();
-            leg_ring(*y, swell - 0.003 * smoothstep(0.634, 0.62, *y))
+            let swell = 0.0052 * (-((y - 0.65) / 0.014f32).powi(2)).exp();
+            leg_ring(*y, swell - 0.0045 * smoothstep(0.642, 0.628, *y))
         })
         .collect();
     let first = grid(&mut part, &rows, true, |r, c| Vec2::new(c, 0.02 + 0.44 * r), |p| weights::leg(skeleton, p));
@@ -51,21 +50,25 @@ pub(super) fn thigh(skeleton: &Skeleton) -> Part {
 /// The left stocking.
 pub(super) fn stocking(skeleton: &Skeleton) -> Part {
     let mut part = Part::new("Stockings", "Stocking");
+    // The band: turned in above, a step below.
     let heights = [
-        0.618, STOCKING_TOP, 0.6335, 0.622, 0.6, 0.57, 0.54, 0.515, 0.492, 0.472, 0.452, 0.432, 0.41, 0.38, 0.345,
-        0.31, 0.28, 0.25, 0.22,
+        0.622, STOCKING_TOP, 0.6338, 0.631, 0.609, 0.6062, 0.6055, 0.601, 0.57, 0.54, 0.51, 0.485, 0.465, 0.445, 0.425,
+        0.4, 0.37, 0.335, 0.3, 0.26, 0.22,
     ];
     let rows: Vec<Vec<Vec3>> = heights
         .iter()
         .enumerate()
         .map(|(i, y)| {
-            // The first rows turn in over the edge: cloth has thickness.
             let out = match i {
-                0 => -0.001,
-                1 => -0.0002,
-                _ => 0.0014 + 0.0008 * smoothstep(0.615, 0.625, *y),
+                0 => -0.0022,
+                1 => -0.0004,
+                2 => 0.0012,
+                3 | 4 => 0.0024,
+                5 => 0.002,
+                _ => 0.0014,
             };
-            leg_ring(*y, out)
+            // It presses into the thigh.
+            leg_ring(*y, out - 0.002 * smoothstep(0.59, 0.61, *y))
         })
         .collect();
     let top = heights[1];
@@ -78,156 +81,21 @@ pub(super) fn stocking(skeleton: &Skeleton) -> Part {
     part
 }
 
-/// Sections of the left boot: front and back point (y, z), half width.
-const BOOT: &[([f32; 2], [f32; 2], f32)] = &[
-    ([0.262, 0.031], [0.262, -0.062], 0.0455),
-    ([BOOT_TOP, 0.0365], [BOOT_TOP + 0.004, -0.0705], 0.0512),
-    ([BOOT_TOP - 0.001, 0.0395], [BOOT_TOP + 0.003, -0.0735], 0.0538),
-    ([0.266, 0.0395], [0.268, -0.074], 0.054),
-    ([0.262, 0.037], [0.262, -0.0715], 0.052),
-    ([0.235, 0.034], [0.235, -0.069], 0.0496),
-    ([0.2, 0.029], [0.2, -0.0625], 0.0454),
-    ([0.165, 0.0255], [0.165, -0.0545], 0.0412),
-    ([0.135, 0.0245], [0.13, -0.053], 0.0385),
-    ([0.112, 0.029], [0.098, -0.0565], 0.0372),
-    ([0.098, 0.04], [0.07, -0.064], 0.037),
-    ([0.086, 0.054], [0.044, -0.0705], 0.0372),
-    ([0.076, 0.07], [0.024, -0.0715], 0.0378),
-    ([0.068, 0.087], [0.02, -0.045], 0.0395),
-    ([0.062, 0.104], [0.02, -0.005], 0.0418),
-    ([0.058, 0.12], [0.019, 0.04], 0.0432),
-    ([0.0525, 0.135], [0.018, 0.078], 0.0418),
-    ([0.044, 0.147], [0.018, 0.108], 0.0355),
-    ([0.034, 0.1535], [0.0185, 0.13], 0.0245),
-];
-
-/// The left boot, without its sole.
-pub(super) fn boot(skeleton: &Skeleton) -> Part {
-    let mut part = Part::new("Boots", "Boots");
-    let rows: Vec<Vec<Vec3>> = BOOT
-        .iter()
-        .map(|(front, back, half)| {
-            let (f, b) = (Vec3::new(0.0, front[0], front[1]), Vec3::new(0.0, back[0], back[1]));
-            let center = (f + b) * 0.5 + Vec3::X * 0.079;
-            // The ring starts at the back and runs over her right side to the front.
-            ring_in(center, Vec3::NEG_X * *half, (b - f) * 0.5, COLUMNS)
-                .into_iter()
-                // Toes point out a little.
-                .map(|p| p + Vec3::X * 0.09 * p.z.max(0.0) * smoothstep(0.12, 0.06, p.y))
-                .collect()
-        })
-        .collect();
-    let mut lengths = vec![0.0f32];
-    for (a, b) in BOOT.iter().zip(&BOOT[1..]) {
-        let step = ((a.0[0] - b.0[0]).hypot(a.0[1] - b.0[1]) + (a.1[0] - b.1[0]).hypot(a.1[1] - b.1[1])) * 0.5;
-        lengths.push(lengths[lengths.len() - 1] + step);
-    }
-    let total = lengths[lengths.len() - 1];
-    let uv = |r: f32, c: f32| {
-        let i = (r * (BOOT.len() - 1) as f32).round() as usize;
-        Vec2::new(c, 0.01 + 0.8 * lengths[i] / total)
-    };
-    let first = grid(&mut part, &rows, true, uv, |p| weights::leg(skeleton, p));
-    let tip = row(first, COLUMNS as u32 + 1, rows.len() as u32 - 1, false);
-    part.cap(&tip, Vec2::new(0.5, 0.815), weights::leg(skeleton, rows[rows.len() - 1][0]));
-    sole(&mut part, skeleton);
-    part
-}
-
-/// The sole: outline of the foot, heel block at the back.
-fn sole(part: &mut Part, skeleton: &Skeleton) {
-    // z, half width, centre x, from heel to toe.
-    const OUTLINE: &[[f32; 3]] = &[
-        [-0.074, 0.014, 0.079],
-        [-0.066, 0.0255, 0.079],
-        [-0.045, 0.0335, 0.079],
-        [-0.015, 0.035, 0.0795],
-        [0.02, 0.0365, 0.081],
-        [0.06, 0.0415, 0.084],
-        [0.1, 0.0425, 0.0875],
-        [0.13, 0.0365, 0.0905],
-        [0.148, 0.0255, 0.092],
-        [0.157, 0.012, 0.0928],
-    ];
-    let outline = |grow: f32| -> Vec<Vec3> {
-        let side = |sign: f32| OUTLINE.iter().map(move |[z, half, x]| Vec3::new(x + sign * (half + grow), 0.0, *z));
-        side(-1.0).chain(side(1.0).rev()).collect()
-    };
-    let lift = |p: Vec3, top: bool| {
-        // Heel and ball touch the ground, the arch between does not.
-        let arch = smoothstep(-0.02, -0.01, p.z) * smoothstep(0.045, 0.03, p.z);
-        p + Vec3::Y
-            * if top {
-                0.024
-            } else {
-                0.0105 * arch + 0.003 * smoothstep(0.12, 0.157, p.z)
-            }
-    };
-    let rows: Vec<Vec<Vec3>> = [(0.0005, true, 0.0), (0.0025, true, -0.005), (0.0025, false, 0.003), (0.0, false, 0.0)]
-        .iter()
-        .map(|(grow, top, more)| outline(*grow).into_iter().map(|p| lift(p, *top) + Vec3::Y * *more).collect())
-        .collect();
-    let columns = OUTLINE.len() as u32 * 2 + 1;
-    let first = grid(part, &rows, true, |r, c| Vec2::new(c, 0.86 + 0.06 * r), |p| weights::leg(skeleton, p));
-    part.cap(&row(first, columns, 3, false), Vec2::new(0.5, 0.97), weights::leg(skeleton, Vec3::new(0.08, 0.0, 0.02)));
-    part.cap(&row(first, columns, 0, true), Vec2::new(0.5, 0.85), weights::leg(skeleton, Vec3::new(0.08, 0.02, 0.02)));
-}
-
-/// Buckled straps of the left boot: two bands and their frames.
-pub(super) fn buckles(skeleton: &Skeleton) -> Part {
-    let mut part = Part::new("Buckles", "Metal_Buckle");
-    for y in [0.242, 0.125] {
-        let bone = skeleton.only(if y > 0.1 { "leftLowerLeg" } else { "leftFoot" });
-        // A square frame on the outer side of the leg.
-        let x = if y > 0.2 { 0.079 + 0.0495 } else { 0.079 + 0.0395 };
-        frame(&mut part, Vec3::new(x, y, -0.012), Vec3::NEG_Z * 0.0105, Vec3::Y * 0.0105, bone);
-    }
-    part
-}
-
-/// A square frame of round wire about `center`; outside is `right` × `up`.
-fn frame(part: &mut Part, center: Vec3, right: Vec3, up: Vec3, bone: crate::skeleton::Weights) {
-    const WIRE: f32 = 0.0021;
-    let out = right.cross(up).normalize();
-    let corners: Vec<Vec3> = [(1.0, 1.0), (1.0, -1.0), (-1.0, -1.0), (-1.0, 1.0)]
-        .iter()
-        .flat_map(|(x, y)| {
-            // Corners are cut twice, so that they look round.
-            let c = center + right * *x + up * *y;
-            let (dx, dy) = (right * *x * 0.3, up * *y * 0.3);
-            if x * y > 0.0 {
-                [c - dx, c - dy]
-            } else {
-                [c - dy, c - dx]
-            }
-        })
-        .collect();
-    let n = corners.len();
-    let mut rows: Vec<Vec<Vec3>> = (0..n)
-        .map(|i| {
-            let away = (corners[i] - center).normalize();
-            ring_in(corners[i], away * WIRE, out * WIRE, 8)
-        })
-        .collect();
-    rows.push(rows[0].clone());
-    grid(part, &rows, true, Vec2::new, |_| bone);
-}
-
 /// Shorts: they close the body under the skirt.
 pub(super) fn shorts(skeleton: &Skeleton) -> Part {
     let mut part = Part::new("Shorts", "Cloth_Shorts");
-    let rows: Vec<Vec<Vec3>> = [0.945, 0.92, 0.89, 0.86, 0.83, 0.8, 0.775, 0.757]
+    let rows: Vec<Vec<Vec3>> = [0.945, 0.9, 0.86, 0.83, 0.8, 0.775, 0.757]
         .iter()
         .enumerate()
         .map(|(i, y)| {
             let [half, front, back] = torso(*y);
-            let close = [1.0, 1.0, 1.0, 1.0, 1.0, 0.93, 0.72, 0.35][i];
-            ring(Vec3::new(0.0, *y, 0.0), (half + 0.002) * close, (front + 0.002) * close, (back + 0.002) * close, 32)
+            let close = [1.0, 1.0, 1.0, 1.0, 0.93, 0.72, 0.35][i];
+            ring(Vec3::new(0.0, *y, 0.0), (half + 0.002) * close, (front + 0.002) * close, (back + 0.002) * close, 20)
         })
         .collect();
     let first = grid(&mut part, &rows, true, |r, c| Vec2::new(c, r), |p| weights::torso(skeleton, p));
     let hips = skeleton.only("hips");
-    part.cap(&row(first, 33, 7, false), Vec2::new(0.5, 1.0), hips);
-    part.cap(&row(first, 33, 0, true), Vec2::new(0.5, 0.0), weights::torso(skeleton, rows[0][0]));
+    part.cap(&row(first, 21, 6, false), Vec2::new(0.5, 1.0), hips);
+    part.cap(&row(first, 21, 0, true), Vec2::new(0.5, 0.0), weights::torso(skeleton, rows[0][0]));
     part
 }

@@ -1,5 +1,6 @@
 //! The body: skin where it shows, stockings, boots, and the colliders of the swinging parts.
 
+mod boot;
 mod hand;
 mod leg;
 mod paint;
@@ -25,7 +26,7 @@ pub fn add(model: &mut Model) {
     let mut shorts = leg::shorts(skeleton);
     shorts.smooth_normals();
     let parts =
-        [both(skin), both(leg::stocking(skeleton)), both(leg::boot(skeleton)), both(leg::buckles(skeleton)), shorts];
+        [both(skin), both(leg::stocking(skeleton)), both(boot::build(skeleton)), both(boot::buckles(skeleton)), shorts];
     model.parts.extend(parts);
     materials(model);
     colliders(model);
@@ -53,7 +54,7 @@ fn materials(model: &mut Model) {
         Material {
             name: "Stocking",
             texture: Some("stocking"),
-            shade: srgb(0xa488c0),
+            shade: srgb(0x9c8ac8),
             shade_texture: Some("stocking"),
             outline: 0.0009,
             outline_color: srgb(0x17101f),
@@ -64,7 +65,7 @@ fn materials(model: &mut Model) {
         Material {
             name: "Boots",
             texture: Some("boots"),
-            shade: srgb(0xab84a4),
+            shade: srgb(0x9a80ac),
             shade_texture: Some("boots"),
             outline: 0.001,
             outline_color: srgb(0x21131a),

@@ -1,4 +1,4 @@
-//! The fur collar, a soft core under rows of tufts, and the fluffy cuffs.
+//! The fur of collar and cuffs: a soft core under rows of tufts.
 
 use std::f32::consts::TAU;
 
@@ -7,7 +7,7 @@ use glam::{Vec2, Vec3};
 use super::tuft::{self, Tuft};
 use crate::body::weights;
 use crate::loft::{grid, ring_in};
-use crate::mesh::Part;
+use crate::mesh::{Part, Vertex};
 use crate::picture::hash;
 use crate::skeleton::Skeleton;
 
@@ -50,10 +50,14 @@ fn frame(t: f32) -> (Vec3, Vec3, Vec3) {
     (along, away, along.cross(away))
 }
 
-/// The collar.
+/// Rows of tufts on the collar: angle from away (0) over up (90) inwards; how many, how large, and how they are shifted.
+const ROWS: [(f32, u32, f32, f32); 4] =
+    [(-44.0, 30, 1.0, 0.0), (8.0, 30, 1.08, 0.5), (62.0, 30, 0.94, 0.0), (122.0, 22, 0.7, 0.5)];
+
+/// The collar: rows of tufts over a core.
 pub(super) fn collar(skeleton: &Skeleton) -> Part {
     let mut part = Part::new("FurCollar", "Jacket_Fur");
-    const STEPS: usize = 37;
+    const STEPS: usize = 23;
     let place = |s: usize| (2.0 * s as f32 - (STEPS - 1) as f32) / (STEPS - 1) as f32;
     let rows: Vec<Vec<Vec3>> = (0..STEPS)
         .map(|s| {
@@ -61,57 +65,45 @@ pub(super) fn collar(skeleton: &Skeleton) -> Part {
             let (p, r) = course(t);
             let (_, away, up) = frame(t);
             let close = (1.0 - t.abs().powi(12)).max(0.05).sqrt();
-            ring_in(p, up * r * 0.9 * close, away * r * 0.9 * close, 10)
+            ring_in(p, up * r * 0.86 * close, away * r * 0.86 * close, 7)
         })
         .collect();
-    let first = grid(
-        &mut part,
-        &rows,
-        true,
-        |r, c| Vec2::new(0.05 + 0.9 * (r * 6.0).fract(), 0.04 + 0.2 * (c - 0.5).abs()),
-        |p| weights::torso(skeleton, p),
-    );
+    let first = grid(&mut part, &rows, true, |r, c| Vec2::new(4.0 * r, 0.05 * c), |p| weights::torso(skeleton, p));
     fix_winding(&mut part, first);
+    for v in &mut part.vertices {
+        v.normal = (v.position - course(nearest(v.position)).0).normalize_or(Vec3::Y);
+    }
 
-    // Rows of tufts round the tube: angle from away (0) over up (90) inwards; how they lie.
-    let rows: &[(f32, u32, f32, f32)] = &[
-        (-112.0, 32, 0.9, 0.5),
-        (-76.0, 36, 1.0, 0.0),
-        (-40.0, 38, 1.14, 0.5),
-        (-8.0, 38, 1.2, 0.0),
-        (24.0, 38, 1.14, 0.5),
-        (56.0, 36, 1.0, 0.0),
-        (88.0, 32, 0.84, 0.5),
-        (120.0, 30, 0.66, 0.0),
-        (152.0, 28, 0.5, 0.5),
-    ];
-    for (row, &(degrees, count, size, shift)) in rows.iter().enumerate() {
+    for (row, (degrees, count, size, shift)) in ROWS.into_iter().enumerate() {
         for i in 0..count {
             let id = row as u32 * 100 + i;
+            let vary = |seed: u32| hash(id, seed, 70 + seed) - 0.5;
             // Mirrored pairs look painted by a ruler, so both halves vary on their own.
-            let t = ((i as f32 + 0.5 + shift * 0.5 - 0.125) / count as f32 * 2.0 - 1.0) * 0.985;
+            let t = ((i as f32 + 0.5 + shift * 0.5 - 0.125 + 0.4 * vary(6)) / count as f32 * 2.0 - 1.0) * 0.985;
             let (p, r) = course(t);
             let (along, away, up) = frame(t);
-            let angle = (degrees + 16.0 * (hash(id, 1, 70) - 0.5)).to_radians();
+            let angle = (degrees + 14.0 * vary(1)).to_radians();
             let out = away * angle.cos() + up * angle.sin();
             let down = away * angle.sin() - up * angle.cos();
             // Downwards and outwards, towards the ends in front.
-            let lean = along * t.signum() * (0.25 + 0.5 * t.abs()) + along * (hash(id, 2, 71) - 0.5) * 0.7;
-            let length = r * (1.1 + 0.6 * hash(id, 3, 72)) * size;
-            let reach = (down * 0.95 + out * 0.42 + lean).normalize() * length;
+            let lean = along * (t.signum() * (0.2 + 0.75 * t * t) + 0.7 * vary(2));
+            let length = (0.016 + 1.15 * r) * (1.0 + 0.45 * vary(3)) * size;
+            let reach = (down * 0.95 + out * 0.18 + lean).normalize() * length;
             let tuft = Tuft {
-                root: p + out * r * 0.78 - down * length * 0.3,
+                root: p + out * r * 0.74 - down * length * 0.34,
                 reach,
                 out,
-                half: r * (0.33 + 0.12 * hash(id, 4, 73)),
-                bend: 0.1 + 0.12 * hash(id, 5, 74),
-                column: 0.125 + 0.25 * (id % 4) as f32,
+                half: (0.0042 + 0.3 * r) * (1.0 + 0.3 * vary(4)) * size.sqrt(),
+                bend: 0.16 + 0.16 * vary(5),
+                sway: 0.3 * vary(7) + 0.1 * vary(7).signum(),
+                column: 0.13 * (id % 7) as f32,
+                cones: 3,
             };
+            let first = part.vertices.len();
             tuft::add(&mut part, &tuft, weights::torso(skeleton, p));
+            soften(&mut part.vertices[first..], p);
         }
     }
-    part.smooth_normals();
-    soften(&mut part, |p| course(nearest(p)).0);
     part
 }
 
@@ -122,10 +114,11 @@ fn nearest(p: Vec3) -> f32 {
     t.unwrap_or(0.0)
 }
 
-/// Normals are those of the whole form, so that light falls on fur as on one soft body.
-fn soften(part: &mut Part, axis: impl Fn(Vec3) -> Vec3) {
-    for v in &mut part.vertices {
-        v.normal = (v.position - axis(v.position)).normalize_or(Vec3::Y);
+/// Normals lean to those of the whole form, so that light falls on fur as on one soft body.
+fn soften(vertices: &mut [Vertex], axis: Vec3) {
+    for v in vertices {
+        let whole = (v.position - axis).normalize_or(Vec3::Y);
+        v.normal = (v.normal * 0.45 + whole * 0.55).normalize_or(whole);
     }
 }
 
@@ -146,28 +139,52 @@ fn fix_winding(part: &mut Part, first: u32) {
     }
 }
 
-/// The cuff of the left sleeve: a soft ring, over which looks lay a coat of short hair.
+/// The cuff of the left sleeve: a soft ring under two rows of tufts, over which looks lay a coat of short hair.
 pub(super) fn cuff(skeleton: &Skeleton) -> Part {
     let mut part = Part::new("FurCuffs", "Jacket_Cuff");
-    let center = Vec3::new(0.503, 1.215, -0.015);
-    let (radius, thick) = (0.0375, 0.0165);
+    let center = Vec3::new(0.486, 1.215, -0.0155);
+    let (radius, thick) = (0.0268, 0.0098);
     let bone = weights::arm(skeleton, center - Vec3::X * 0.03);
-    const AROUND: usize = 40;
-    const TUBE: usize = 14;
+    const AROUND: usize = 28;
+    const TUBE: usize = 10;
     // A ring round the wrist; its own section turns about it.
     let rows: Vec<Vec<Vec3>> = (0..=TUBE)
         .map(|k| {
             let (s, c) = ((k % TUBE) as f32 / TUBE as f32 * TAU).sin_cos();
-            let reach = radius + thick * 0.85 * c;
+            let reach = radius + thick * 0.8 * c;
             let middle = center + Vec3::X * thick * 1.1 * s;
             ring_in(middle, Vec3::NEG_Z * reach, Vec3::Y * reach, AROUND)
         })
         .collect();
-    grid(&mut part, &rows, true, |r, c| Vec2::new(c, 0.04 + 0.33 * r), |_| bone);
+    grid(&mut part, &rows, true, |r, c| Vec2::new(c, 0.06 + 0.04 * (1.0 - (2.0 * r - 1.0).abs())), |_| bone);
     part.smooth_normals();
-    soften(&mut part, |p| {
-        let radial = (p - center).with_x(0.0).normalize_or(Vec3::Y);
-        center + radial * radius
-    });
+    let about = |degrees: f32| {
+        let (s, c) = degrees.to_radians().sin_cos();
+        Vec3::new(0.0, c, s)
+    };
+    for (row, (count, from, size)) in [(13u32, -0.7f32, 1.0f32), (13, 0.1, 0.92)].into_iter().enumerate() {
+        for i in 0..count {
+            let id = 500 + row as u32 * 100 + i;
+            let vary = |seed: u32| hash(id, seed, 80 + seed) - 0.5;
+            let radial = about((i as f32 + 0.5 * row as f32 + 0.4 * vary(1)) * 360.0 / count as f32);
+            let axis = center + radial * radius;
+            let length = 0.0235 * size * (1.0 + 0.4 * vary(3));
+            let out = (radial + Vec3::X * from * 0.5).normalize();
+            let sideways = Vec3::X.cross(radial) * (0.5 * vary(2));
+            let tuft = Tuft {
+                root: axis + radial * thick * 0.42 + Vec3::X * thick * from,
+                reach: (Vec3::X + radial * 0.12 + sideways).normalize() * length,
+                out,
+                half: 0.0072 * size * (1.0 + 0.3 * vary(4)),
+                bend: 0.12 + 0.14 * vary(5),
+                sway: 0.3 * vary(7) + 0.1 * vary(7).signum(),
+                column: 0.13 * (id % 7) as f32,
+                cones: 2,
+            };
+            let first = part.vertices.len();
+            tuft::add(&mut part, &tuft, bone);
+            soften(&mut part.vertices[first..], axis);
+        }
+    }
     part
 }

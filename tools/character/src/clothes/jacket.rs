@@ -2,7 +2,8 @@
 
 use glam::{Vec2, Vec3};
 
-use crate::body::shape::{arm, torso};
+use super::{sleeve, trim};
+use crate::body::shape::torso;
 use crate::body::weights;
 use crate::loft::{grid, ring};
 use crate::mesh::Part;
@@ -13,11 +14,11 @@ use crate::skeleton::Skeleton;
 const HEIGHTS: &[f32] =
     &[1.254, 1.246, 1.236, 1.222, 1.205, 1.186, 1.166, 1.146, 1.126, 1.105, 1.08, 1.05, 1.02, 0.992, 0.97, 0.95, 0.936];
 /// Columns from the middle of the back to the front edge.
-const COLUMNS: usize = 20;
+pub(super) const COLUMNS: usize = 20;
 /// The armhole: first and last row, first and last column.
 const HOLE: [usize; 4] = [1, 7, 6, 14];
 /// Distance over the skin.
-const OUT: f32 = 0.0085;
+pub(super) const OUT: f32 = 0.0085;
 
 /// Half angle of the front opening at height `y`, radians from straight ahead.
 fn opening(y: f32) -> f32 {
@@ -25,7 +26,7 @@ fn opening(y: f32) -> f32 {
 }
 
 /// Point of the left half: `column` 0 at the back .. 1 at the front edge.
-fn body_point(y: f32, column: f32, out: f32) -> Vec3 {
+pub(super) fn body_point(y: f32, column: f32, out: f32) -> Vec3 {
     let [half, front, back] = torso(y);
     // Over the waist the cloth stands off; the hem flares.
     let loose = 0.006 * smoothstep(1.08, 1.0, y) + 0.014 * smoothstep(0.985, 0.936, y);
@@ -46,8 +47,17 @@ fn in_hole(r: usize, c: usize) -> bool {
     (HOLE[0]..HOLE[1]).contains(&r) && (HOLE[2]..HOLE[3]).contains(&c)
 }
 
+/// Step into the hole from one of its ends.
+fn corner(at: usize, start: usize, end: usize) -> Option<isize> {
+    match at {
+        _ if at == start => Some(1),
+        _ if at == end => Some(-1),
+        _ => None,
+    }
+}
+
 /// The loop of the armhole: over the top to the front, down, back below, up; with row and column.
-fn armhole() -> Vec<(usize, usize)> {
+pub(super) fn armhole() -> Vec<(usize, usize)> {
     let [top, bottom, back, front] = HOLE;
     let mut loop_ = Vec::new();
     loop_.extend((back..front).map(|c| (top, c)));
@@ -56,28 +66,6 @@ fn armhole() -> Vec<(usize, usize)> {
     loop_.extend((top + 1..=bottom).rev().map(|r| (r, back)));
     loop_
 }
-
-/// Rings of the sleeve: x, radius, height and depth of its axis.
-const SLEEVE: &[[f32; 4]] = &[
-    [0.139, 0.0525, 1.2105, -0.016],
-    [0.15, 0.0508, 1.2118, -0.016],
-    [0.163, 0.0492, 1.213, -0.016],
-    [0.178, 0.0475, 1.2138, -0.0162],
-    [0.195, 0.046, 1.2145, -0.0165],
-    [0.235, 0.0435, 1.215, -0.0175],
-    [0.275, 0.042, 1.215, -0.0185],
-    [0.302, 0.0412, 1.215, -0.0192],
-    [0.322, 0.041, 1.215, -0.0198],
-    [0.342, 0.041, 1.215, -0.02],
-    [0.362, 0.041, 1.215, -0.0195],
-    [0.39, 0.041, 1.215, -0.019],
-    [0.425, 0.0412, 1.215, -0.018],
-    [0.46, 0.0418, 1.215, -0.0168],
-    [0.49, 0.0428, 1.215, -0.0155],
-    [0.506, 0.0432, 1.215, -0.015],
-    [0.506, 0.0395, 1.215, -0.015],
-    [0.485, 0.037, 1.215, -0.0155],
-];
 
 /// Texture of the jacket: torso in the left two thirds, sleeve in the right one.
 fn body_uv(r: usize, c: usize) -> Vec2 {
@@ -93,6 +81,11 @@ pub(super) fn left(skeleton: &Skeleton) -> [Part; 2] {
     for (r, y) in HEIGHTS.iter().enumerate() {
         for c in 0..COLUMNS {
             let mut p = body_point(*y, edge_column(c), OUT);
+            // The armhole has no corners.
+            if let [Some(down), Some(on)] = [corner(r, HOLE[0], HOLE[1]), corner(c, HOLE[2], HOLE[3])] {
+                let y = y + 0.4 * (HEIGHTS[r.wrapping_add_signed(down)] - y);
+                p = body_point(y, edge_column(c) + 0.4 * on as f32 / (COLUMNS - 1) as f32, OUT);
+            }
             if c == 0 {
                 p.x = 0.0;
             }
@@ -107,104 +100,58 @@ pub(super) fn left(skeleton: &Skeleton) -> [Part; 2] {
             }
         }
     }
-    sleeve(&mut jacket, skeleton);
+    sleeve::add(&mut jacket, skeleton);
 
-    // The lining: a shell inside the torso, joined along hem, front edge and neck.
-    let mut lining = Part::new("JacketLining", "Jacket_Lining");
     let rows = HEIGHTS.len();
-    for (r, y) in HEIGHTS.iter().enumerate() {
-        for c in 0..COLUMNS {
-            let y = y.clamp(HEIGHTS[rows - 1] + 0.0015, HEIGHTS[0] - 0.001);
-            // Deeper at the armhole, where a lowered arm dents the cloth.
-            let middle = 0.5 * (HOLE[2] + HOLE[3]) as f32;
-            let dent =
-                smoothstep(8.0, 4.0, (c as f32 - middle).abs()) * smoothstep(1.06, 1.11, y) * smoothstep(1.24, 1.2, y);
-            let inset = OUT - 0.0034 - 0.046 * dent;
-            let mut p = body_point(y, edge_column(c) * if c == COLUMNS - 1 { 0.994 } else { 1.0 }, inset);
-            if c == 0 {
-                p.x = 0.0;
-            }
-            lining.vertex(p, body_uv(r, c), bone(p));
-        }
-    }
-    for r in 0..rows - 1 {
-        for c in 0..COLUMNS - 1 {
-            // Closed at the armhole too, so that nobody looks into the sleeve.
-            lining.quad(index(r, c), index(r + 1, c), index(r + 1, c + 1), index(r, c + 1));
-        }
-    }
-    // Rim: outer edge to inner edge.
-    let base = lining.vertices.len() as u32;
     let mut edge: Vec<(usize, usize)> = (0..COLUMNS - 1).map(|c| (rows - 1, c)).collect();
     edge.extend((0..rows).rev().map(|r| (r, COLUMNS - 1)));
-    for (r, c) in &edge {
-        let outer = jacket.vertices[index(*r, *c) as usize];
-        let inner = lining.vertices[index(*r, *c) as usize];
+    let line: Vec<Vec3> = edge.iter().map(|(r, c)| jacket.vertices[index(*r, *c) as usize].position).collect();
+    trim::piping(&mut jacket, skeleton, &line, 0.0022);
+    trim::lapel(&mut jacket, skeleton);
+    let lining = lining(&jacket, skeleton, &edge);
+    [jacket, lining]
+}
+
+/// Point of the lining: deeper at the armhole, where a lowered arm dents the cloth.
+fn lining_point(r: usize, c: usize) -> Vec3 {
+    let y = HEIGHTS[r].clamp(HEIGHTS[HEIGHTS.len() - 1] + 0.0015, HEIGHTS[0] - 0.001);
+    let middle = 0.5 * (HOLE[2] + HOLE[3]) as f32;
+    let dent = smoothstep(8.0, 4.0, (c as f32 - middle).abs()) * smoothstep(1.06, 1.11, y) * smoothstep(1.24, 1.2, y);
+    let inset = OUT - 0.0034 - 0.046 * dent;
+    let p = body_point(y, edge_column(c) * if c == COLUMNS - 1 { 0.994 } else { 1.0 }, inset);
+    if c == 0 { p.with_x(0.0) } else { p }
+}
+
+/// The lining: a shell inside the torso, joined along hem, front edge and neck. It is closed at the armhole too, so that
+/// nobody looks into the sleeve.
+fn lining(jacket: &Part, skeleton: &Skeleton, edge: &[(usize, usize)]) -> Part {
+    let mut lining = Part::new("JacketLining", "Jacket_Lining");
+    let bone = |p: Vec3| weights::torso(skeleton, p);
+    let add = |lining: &mut Part, r: usize, c: usize| {
+        let p = lining_point(r, c);
+        lining.vertex(p, body_uv(r, c), bone(p));
+    };
+    // Coarser than the outside.
+    let rows: Vec<usize> = (0..HEIGHTS.len()).filter(|r| r % 2 == 0).collect();
+    let columns: Vec<usize> = (0..COLUMNS).filter(|c| c % 2 == 0 || c + 1 == COLUMNS).collect();
+    for r in &rows {
+        for c in &columns {
+            add(&mut lining, *r, *c);
+        }
+    }
+    lining.quads(0, rows.len() as u32, columns.len() as u32, false);
+    // Rim: outer edge to inner edge.
+    let base = lining.vertices.len() as u32;
+    for (r, c) in edge {
+        let outer = jacket.vertices[r * COLUMNS + c];
         lining.vertex(outer.position, outer.uv, outer.weights);
-        lining.vertex(inner.position, inner.uv, inner.weights);
+        add(&mut lining, *r, *c);
     }
     for i in 0..edge.len() as u32 - 1 {
         let (a, b) = (base + 2 * i, base + 2 * i + 2);
         lining.quad(a, a + 1, b + 1, b);
     }
-    [jacket, lining]
-}
-
-fn sleeve(jacket: &mut Part, skeleton: &Skeleton) {
-    let hole = armhole();
-    let n = hole.len();
-    let loop_places: Vec<Vec3> = hole.iter().map(|(r, c)| jacket.vertices[r * COLUMNS + c].position).collect();
-    // Where each column of the sleeve starts: at the angle that its vertex of the armhole stands at, evened out.
-    let middle = Vec3::new(0.11, 1.205, -0.016);
-    let angles: Vec<f32> = {
-        let raw: Vec<f32> = loop_places.iter().map(|p| (p.z - middle.z).atan2(p.y - middle.y)).collect();
-        // From the back over the top to the front: the angle grows.
-        let mut grown = vec![raw[0]];
-        for a in &raw[1..] {
-            let mut next = *a;
-            while next < grown[grown.len() - 1] - 1.0 {
-                next += std::f32::consts::TAU;
-            }
-            grown.push(next);
-        }
-        (0..n).map(|i| 0.35 * grown[i] + 0.65 * (grown[0] + std::f32::consts::TAU * i as f32 / n as f32)).collect()
-    };
-    let ring_at = |[x, radius, y, z]: [f32; 4]| -> Vec<Vec3> {
-        angles.iter().map(|a| Vec3::new(x, y + a.cos() * radius, z + a.sin() * radius)).collect()
-    };
-    let mut rows = vec![loop_places.clone()];
-    let first_ring = ring_at(SLEEVE[0]);
-    for t in [0.36f32, 0.7] {
-        // The shoulder: from the armhole outwards, a little full.
-        rows.push(
-            (0..n)
-                .map(|i| {
-                    let p = loop_places[i].lerp(first_ring[i], t);
-                    let out = (p - Vec3::new(p.x, 1.205, -0.016)).normalize_or(Vec3::Y);
-                    p + out * 0.006 * (1.0 - (2.0 * t - 1.0).powi(2)) * smoothstep(-0.2, 0.6, out.y)
-                })
-                .collect(),
-        );
-    }
-    rows.extend(SLEEVE.iter().map(|s| ring_at(*s)));
-    let count = rows.len();
-    let first =
-        grid(jacket, &rows, true, |r, c| Vec2::new(0.66 + 0.32 * c, 0.02 + 0.96 * r), |p| weights::torso(skeleton, p));
-    // Seen from outside the rows run to the right and advance towards the hand.
-    let vote: f32 = jacket
-        .triangles
-        .iter()
-        .filter(|t| t[0] >= first)
-        .map(|t| {
-            let [a, b, c] = t.map(|i| jacket.vertices[i as usize].position);
-            let mid = (a + b + c) / 3.0;
-            (b - a).cross(c - a).dot(mid - Vec3::new(mid.x, 1.213, -0.017))
-        })
-        .sum();
-    if vote < 0.0 {
-        jacket.triangles.iter_mut().filter(|t| t[0] >= first).for_each(|t| t.swap(1, 2));
-    }
-    debug_assert!(count > 4 && arm(0.3) < 0.041, "the sleeve is wider than the arm");
+    lining
 }
 
 /// The blouse: a shell under the jacket with a stand-up collar.
@@ -237,7 +184,7 @@ pub(super) fn blouse(skeleton: &Skeleton) -> Part {
         .map(|(i, (y, out))| {
             if i < 5 {
                 let radius = 0.0345 + 0.003 * smoothstep(1.27, 1.25, *y) + out;
-                return ring(Vec3::new(0.0, *y, -0.0232), radius * 1.05, radius, radius, 40)
+                return ring(Vec3::new(0.0, *y, -0.0232), radius * 1.05, radius, radius, 28)
                     .into_iter()
                     // The collar opens in front.
                     .map(|p| p - Vec3::Y * 0.006 * smoothstep(-0.005, 0.02, p.z))
@@ -246,7 +193,7 @@ pub(super) fn blouse(skeleton: &Skeleton) -> Part {
             // Narrower than the body under the arms: there the jacket follows them, and nobody looks.
             let [half, front, back] = torso(*y);
             let narrow = 0.048 * smoothstep(1.0, 1.1, *y) * smoothstep(1.245, 1.2, *y);
-            ring(Vec3::new(0.0, *y, 0.0), half + out - narrow, front + out, back + out - narrow * 0.4, 40)
+            ring(Vec3::new(0.0, *y, 0.0), half + out - narrow, front + out, back + out - narrow * 0.4, 28)
         })
         .collect();
     let (top, bottom) = (1.275f32, 0.93f32);

@@ -4,15 +4,16 @@ mod fur;
 mod jacket;
 mod paint;
 mod skirt;
+mod sleeve;
+mod trim;
 mod tuft;
 
 use crate::mesh::Part;
-use crate::model::{Alpha, Material, Model, Texture, srgb, srgba};
+use crate::model::{Material, Model, Texture, srgb, srgba};
 
 /// Adds the clothes.
 pub fn add(model: &mut Model) {
-    let mut skirt = skirt::build(model);
-    skirt.smooth_normals();
+    let skirt = skirt::build(model);
     let skeleton = &model.skeleton;
     let both = |mut left: Part, smooth: bool| {
         let right = left.mirrored(skeleton);
@@ -24,19 +25,14 @@ pub fn add(model: &mut Model) {
         left
     };
     let [jacket, lining] = jacket::left(skeleton);
+    let mut jacket = both(jacket, true);
+    sleeve::raise_folds(&mut jacket);
     let mut blouse = jacket::blouse(skeleton);
     blouse.smooth_normals();
     let mut belt = skirt::belt(skeleton);
     belt.smooth_normals();
-    let parts = [
-        blouse,
-        both(jacket, true),
-        both(lining, true),
-        fur::collar(skeleton),
-        both(fur::cuff(skeleton), false),
-        skirt,
-        belt,
-    ];
+    let parts =
+        [blouse, jacket, both(lining, true), fur::collar(skeleton), both(fur::cuff(skeleton), false), skirt, belt];
     model.parts.extend(parts);
     materials(model);
 }
@@ -47,10 +43,11 @@ fn materials(model: &mut Model) {
         texture("blouse", paint::blouse as fn() -> _),
         texture("jacket", paint::jacket),
         texture("jacket_part_id", paint::jacket_part_id),
-        texture("fur", paint::fur),
-        texture("fur_normal", paint::fur_normal),
+        Texture { name: "fur", paint: paint::fur, repeat: true },
+        Texture { name: "fur_normal", paint: paint::fur_normal, repeat: true },
         texture("skirt", paint::skirt),
         texture("skirt_outline", paint::skirt_outline),
+        texture("skirt_part_id", paint::skirt_part_id),
     ]);
     let cloth = |name, texture, shade, line| Material {
         name,
@@ -61,15 +58,18 @@ fn materials(model: &mut Model) {
         outline_color: srgb(line),
         ..Material::default()
     };
-    let fur = Material {
-        name: "Jacket_Fur",
+    let fur = |name| Material {
+        name,
         texture: Some("fur"),
         shade: srgb(0xcdbce0),
         shade_texture: Some("fur"),
-        alpha: Alpha::Mask(0.5),
-        // Tufts are cards.
+        // Tufts are open below.
         double_sided: true,
-        extras: [("detailNormal", "fur_normal")].into(),
+        outline: 0.0007,
+        outline_color: srgb(0x8378a6),
+        // Hairs are dark at their roots; snow shines.
+        emission: [0.06, 0.056, 0.07],
+        substance: Some("fluff"),
         ..Material::default()
     };
     model.materials.extend([
@@ -80,17 +80,14 @@ fn materials(model: &mut Model) {
             ..cloth("Jacket", "jacket", 0x9a88c8, 0x14142c)
         },
         Material { name: "Jacket_Lining", color: srgba(0xe8a33d), shade: srgb(0xb0603a), ..Material::default() },
-        fur,
+        Material { extras: [("detailNormal", "fur_normal")].into(), ..fur("Jacket_Fur") },
+        fur("Jacket_Cuff"),
         Material {
-            name: "Jacket_Cuff",
-            color: srgba(0xf6f0fa),
-            shade: srgb(0xc6b6dc),
-            outline: 0.001,
-            outline_color: srgb(0x6d6488),
-            substance: Some("fluff"),
-            ..Material::default()
+            outline_mask: Some("skirt_outline"),
+            extras: [("partId", "skirt_part_id")].into(),
+            part_ramps: &["Cloth_Blouse", "Skirt"],
+            ..cloth("Skirt", "skirt", 0xbfb2da, 0x3a3054)
         },
-        Material { outline_mask: Some("skirt_outline"), ..cloth("Skirt", "skirt", 0xb09cd8, 0x171228) },
         Material {
             name: "Cloth_Belt",
             color: srgba(0x5d4238),

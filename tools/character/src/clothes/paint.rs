@@ -2,7 +2,9 @@
 
 use glam::{Vec2, Vec3};
 
-use crate::picture::{Canvas, Picture, curve, ellipse, hash, noise, part_ids, polyline, rgb, smoothstep};
+use super::skirt::PLEATS;
+use super::{sleeve, tuft};
+use crate::picture::{Canvas, Picture, curve, ellipse, noise, part_ids, polyline, rgb, smoothstep};
 
 fn mix(a: Vec3, b: Vec3, t: f32) -> Vec3 {
     a + (b - a) * t.clamp(0.0, 1.0)
@@ -90,17 +92,46 @@ pub(super) fn jacket() -> Picture {
             0.003,
         );
     }
-    // Folds at the waist and in the elbow.
-    for i in 0..6 {
-        let x = 0.08 + 0.09 * i as f32;
-        let fold = [Vec2::new(x, 0.62), Vec2::new(x + 0.02, 0.72), Vec2::new(x + 0.012, 0.83)];
-        c.stroke(&curve(&fold, false), 0x2b3058, 0.55, 0.009);
+    // Folds at the waist, that fan out from it: a line thin at its ends, and its shade.
+    for (x, lean, long) in
+        [(0.05, 0.012, 0.16), (0.13, -0.014, 0.12), (0.27, 0.02, 0.2), (0.34, 0.03, 0.13), (0.43, -0.02, 0.15)]
+    {
+        let at = |t: f32, wide: f32| Vec2::new(x + lean * t * t + wide * (1.0 - t) * t * 4.0, 0.73 - long * t);
+        let shape = |wide: f32| {
+            let up = (0..=8).map(|i| at(i as f32 / 8.0, 0.0));
+            let down = (0..=8).rev().map(|i| at(i as f32 / 8.0, wide));
+            polyline(&up.chain(down).collect::<Vec<_>>(), true)
+        };
+        c.fill(&shape(0.02), 0x2c3263, 0.85);
+        c.fill(&shape(0.0052), 0x20254a, 1.0);
     }
-    for (x, y, long) in [(0.7, 0.45, 0.2), (0.8, 0.5, 0.14), (0.69, 0.545, 0.16), (0.83, 0.6, 0.12)] {
-        let [a, b] = [Vec2::new(x, y), Vec2::new(x + long, y - 0.012)];
-        let sag = |depth: f32| (a + b) * 0.5 + Vec2::new(0.01, depth);
-        c.fill(&curve(&[a, sag(0.008), b, sag(0.026)], true), 0x2b3058, 0.5);
+    // Below each crease of the sleeve lies its shade.
+    for line in sleeve::creases() {
+        let lower = line.iter().rev().map(|(p, deep)| *p + Vec2::Y * 0.03 * deep.max(0.0));
+        let shape: Vec<Vec2> = line.iter().map(|(p, _)| *p).chain(lower).collect();
+        c.fill(&polyline(&shape, true), 0x2b3162, 1.0);
     }
+    // Over it the crest catches light.
+    for line in sleeve::creases() {
+        for pair in line.windows(2) {
+            let deep = 0.5 * (pair[0].1 + pair[1].1) - 0.35;
+            if deep > 0.0 {
+                let up = Vec2::Y * 0.022;
+                c.stroke(&polyline(&[pair[0].0 - up, pair[1].0 - up], false), 0x4a588e, 1.0, 0.009 * deep);
+            }
+        }
+    }
+    // The creases themselves: drawn where the mesh folds, thin at their ends.
+    for line in sleeve::creases() {
+        for pair in line.windows(2) {
+            let deep = 0.5 * (pair[0].1 + pair[1].1);
+            if deep > 0.08 {
+                c.stroke(&polyline(&[pair[0].0, pair[1].0], false), 0x20254a, 1.0, 0.0012 + 0.0062 * deep);
+            }
+        }
+    }
+    // The seam of the shoulder.
+    c.fill(&square(0.645, 0.044, 1.0, 0.0555), 0x20254a, 1.0);
     // Piping along the front edge and the hem.
     for piping in piping() {
         c.fill(&piping, 0xe8a33d, 1.0);
@@ -120,52 +151,33 @@ pub(super) fn jacket() -> Picture {
     picture
 }
 
-/// Strokes of fur: they run along v and lean together at the tip.
-fn strokes(uv: Vec2, count: f32, seed: u32) -> f32 {
-    let (tuft, u) = ((uv.x * 4.0).floor(), (uv.x * 4.0).fract() - 0.5);
-    let spread = u * (0.55 + 0.45 * uv.y);
-    noise(Vec2::new((tuft + 0.5 + spread) * count * 0.25, uv.y * 2.5), [count as i32, 64], seed)
+/// Place in the painted fur: across the columns, and along a tuft from root (0) to tip (1).
+fn along_tuft(uv: Vec2) -> Vec2 {
+    Vec2::new(uv.x, (uv.y / tuft::UV[1]).min(1.0))
 }
 
-/// Height of the painted fur, 0..1: the strands of a tuft, higher in its middle.
+/// Strokes of fur: they run along a tuft.
+fn strokes(at: Vec2, count: f32, seed: u32) -> f32 {
+    noise(Vec2::new(at.x * count, at.y * 2.5), [count as i32, 64], seed)
+}
+
+/// Height of the painted fur, 0..1: its strands.
 fn fur_height(uv: Vec2) -> f32 {
-    let u = ((uv.x * 4.0).fract() - 0.5).abs() * 2.0;
-    let dome = (1.0 - u * u).max(0.0).sqrt();
-    0.6 * dome + 0.25 * strokes(uv, 48.0, 21) + 0.15 * strokes(uv, 112.0, 22)
-}
-
-/// How far inside a strand of its tuft a point lies, in widths of a tuft: below 0 outside. Each tuft ends in five strands
-/// of their own lengths, which part where the tuft is half as long.
-fn inside_strands(uv: Vec2) -> f32 {
-    let (tuft, u) = ((uv.x * 4.0).floor() as u32, (uv.x * 4.0).fract());
-    (0..5u32)
-        .map(|k| {
-            let vary = |seed| hash(tuft * 5 + k, 7, seed) - 0.5;
-            let end = 0.9 - 0.28 * (k as f32 - 2.0).abs() / 2.0 + 0.16 * vary(1);
-            let root = 0.14 + 0.18 * k as f32;
-            let tip = root + 0.1 * vary(2) + 0.05 * (2.0 - k as f32);
-            let t = uv.y / end;
-            let bend = smoothstep(0.3, 1.0, t);
-            0.125 * (1.0 - smoothstep(0.42, 1.0, t)).powf(0.8) - (u - root - (tip - root) * bend).abs()
-        })
-        .fold(f32::MIN, f32::max)
+    let at = along_tuft(uv);
+    0.6 * strokes(at, 48.0, 21) + 0.4 * strokes(at, 112.0, 22)
 }
 
 /// Fur: v runs along a tuft from its root, in the shade of its neighbours, to its light tips.
 pub(super) fn fur() -> Picture {
-    let [root, body, light, line] = [0xdccde2, 0xf1e9f1, 0xfffdfb, 0xc4b0d2].map(rgb);
+    let [root, body, light, line] = [0x9f8fc6, 0xf5f0f9, 0xffffff, 0xcabddf].map(rgb);
     Picture::from_fn(1024, 512, |uv| {
-        let broad = strokes(uv, 40.0, 21) - 0.5;
-        let v = uv.y + broad * 0.3;
-        let mut color = mix(root, body, smoothstep(0.1, 0.4, v));
-        color = mix(color, light, smoothstep(0.36, 0.66, v));
-        let pen = smoothstep(0.8, 0.93, strokes(uv, 72.0, 22));
-        color = mix(color, line, 0.5 * pen * smoothstep(0.75, 0.35, uv.y));
-        let inside = inside_strands(uv);
-        // A thin line along the strands, so that one is told from those below.
-        color = mix(color, line, 0.7 * smoothstep(0.05, 0.015, inside) * smoothstep(0.35, 0.55, uv.y));
-        let alpha = (0.5 + inside * 20.0).clamp(0.0, 1.0).max(smoothstep(0.3, 0.26, uv.y));
-        [color.x, color.y, color.z, alpha]
+        let at = along_tuft(uv);
+        let v = at.y + (strokes(at, 48.0, 21) - 0.5) * 0.22;
+        let mut color = mix(root, body, smoothstep(0.08, 0.32, v));
+        color = mix(color, light, smoothstep(0.36, 0.65, v));
+        let pen = smoothstep(0.8, 0.93, strokes(at, 72.0, 22));
+        color = mix(color, line, 0.35 * pen * smoothstep(0.8, 0.4, at.y));
+        [color.x, color.y, color.z, 1.0]
     })
 }
 
@@ -174,38 +186,66 @@ pub(super) fn fur_normal() -> Picture {
     const STEP: f32 = 1.0 / 1024.0;
     Picture::from_fn(1024, 512, |uv| {
         let slope = |d: Vec2| (fur_height(uv + d) - fur_height(uv - d)) / (2.0 * STEP);
-        // Slopes of the texture, as if a tuft were as high as a quarter of its width.
-        let n = Vec3::new(-slope(Vec2::X * STEP) / 60.0, slope(Vec2::Y * STEP) / 60.0, 1.0).normalize();
+        // Slopes of the texture, softened: the tufts have a form of their own.
+        let n = Vec3::new(-slope(Vec2::X * STEP) / 130.0, slope(Vec2::Y * STEP) / 300.0, 1.0).normalize();
         [n.x * 0.5 + 0.5, n.y * 0.5 + 0.5, n.z * 0.5 + 0.5, 1.0]
     })
 }
 
+/// Place within a box pleat: u, and whether it is the gap between two faces.
+fn pleat(uv: Vec2) -> (f32, bool) {
+    let x = (uv.x * PLEATS as f32).fract();
+    (x, x > 0.83 && x < 0.99)
+}
+
+/// Bands above the hem of the skirt, navy and gold: middle and half height.
+const BANDS: [(f32, f32, u32); 3] = [(0.835, 0.026, 0x333c6e), (0.878, 0.0045, 0xd9a441), (0.9, 0.006, 0x333c6e)];
+
 /// Width of the skirt's outline: none in the folds, which it would fill, and none inside.
 pub(super) fn skirt_outline() -> Picture {
     Picture::from_fn(1024, 64, |uv| {
-        let x = (uv.x * 22.0).fract();
-        let value = if uv.y > 0.95 {
-            0.0
-        } else {
-            smoothstep(0.0, 0.1, x) * smoothstep(0.64, 0.54, x)
-        };
+        let value = if uv.y > 0.95 || pleat(uv).1 { 0.0 } else { 1.0 };
         [value, value, value, 1.0]
     })
 }
 
-/// Skirt: 22 pleats side by side; the fold of each is dark, a pale stripe runs above the hem.
+/// Numbers of the parts of the skirt: 1 pale cloth, 2 the navy of bands and folds.
+pub(super) fn skirt_part_id() -> Picture {
+    let strip = |k: usize| {
+        let at = |x: f32| (k as f32 + x) / PLEATS as f32;
+        (square(at(0.83), 0.0, at(0.99), 1.0), 2)
+    };
+    let bands = BANDS.map(|(y, half, _)| (square(0.0, y - half, 1.0, y + half), 2));
+    let shapes: Vec<_> = (0..PLEATS).map(strip).chain(bands).chain([(square(0.0, 0.945, 1.0, 1.0), 2)]).collect();
+    part_ids(&shapes)
+}
+
+/// Skirt: cream box pleats over navy, with bands above the hem.
 pub(super) fn skirt() -> Picture {
-    let [light, cloth, deep, stripe] = [0x5d5378, 0x4a4163, 0x3c3459, 0xd9cfe6].map(rgb);
+    let [light, cloth, fold, line] = [0xfdf7ee, 0xf3e9e0, 0xd9c9d8, 0x8f7da4].map(rgb);
+    let [navy, deep] = [0x39406e, 0x232747].map(rgb);
     Picture::from_fn(2048, 512, |uv| {
-        let x = (uv.x * 22.0).fract();
+        let (x, gap) = pleat(uv);
+        let soft = 1.0 / 128.0;
+        let mut color;
         if uv.y > 0.945 {
-            return [deep.x, deep.y, deep.z, 1.0];
+            color = deep;
+        } else if gap {
+            color = mix(deep, navy, 0.55 * smoothstep(0.3, 1.0, uv.y));
+        } else {
+            color = mix(cloth, light, smoothstep(0.2, 0.9, uv.y));
+            // The ironed edge on her right, the shade before the edge on her left.
+            color = mix(color, fold, 0.75 * smoothstep(0.7, 0.7 + soft, x) * smoothstep(0.02, 0.5, uv.y));
+            // Sewn down above: two short seams.
+            let seam = smoothstep(soft, 0.4 * soft, (x - 0.03).abs().min((x - 0.79).abs()));
+            color = mix(color, fold, seam * smoothstep(0.24, 0.22, uv.y));
+            for (y, half, hex) in BANDS {
+                let band = smoothstep(half + 0.002, half, (uv.y - y).abs());
+                color = mix(color, rgb(hex) * if x > 0.7 { 0.86 } else { 1.0 }, band);
+            }
+            color = mix(color, line, 0.8 * smoothstep(1.6 * soft, 0.6 * soft, x.min((0.826 - x).max(0.0))));
         }
-        let mut color = mix(cloth, light, smoothstep(0.6, 0.15, x) * (0.35 + 0.5 * uv.y));
-        let line = smoothstep(0.012, 0.008, (uv.y - 0.85).abs()) + smoothstep(0.005, 0.003, (uv.y - 0.885).abs());
-        color = mix(color, stripe, line.min(1.0));
-        color = mix(color, deep, smoothstep(0.64, 0.72, x) * 0.9);
-        color = mix(color, deep, 0.6 * smoothstep(0.04, 0.0, x) + 0.5 * smoothstep(0.12, 0.0, uv.y));
+        color = mix(color, line, 0.55 * smoothstep(0.09, 0.0, uv.y));
         [color.x, color.y, color.z, 1.0]
     })
 }

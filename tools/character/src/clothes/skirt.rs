@@ -11,11 +11,12 @@ use crate::model::{Model, Spring};
 use crate::picture::smoothstep;
 use crate::skeleton::{Skeleton, Weights, blend};
 
-const PLEATS: usize = 22;
+/// Box pleats round the skirt.
+pub(super) const PLEATS: usize = 16;
 const TOP: f32 = 0.968;
 const HEM: f32 = 0.692;
 /// Rows from the waist to the hem.
-const ROWS: usize = 9;
+const ROWS: usize = 8;
 /// Chains round the hips: name and angle from the front to her left, degrees.
 const CHAINS: &[(&str, f32)] = &[
     ("Skirt_Front", 0.0),
@@ -92,49 +93,76 @@ fn weights(skeleton: &Skeleton, bones: &[[usize; 2]], p: Vec3) -> Weights {
     blend(&list)
 }
 
+/// Corners of a box pleat: angle in pleats, depth of the fold, drop of the hem, u within the pleat. The face lies outside,
+/// the gap between two faces behind it.
+const CORNERS: [[f32; 4]; 5] = [
+    [0.0, 0.0, 0.0095, 0.0],
+    [0.41, 0.12, 0.004, 0.41],
+    [0.82, 0.0, 0.0095, 0.82],
+    [0.86, 1.0, -0.011, 0.86],
+    [0.96, 1.0, -0.011, 0.96],
+];
+
+/// Angle of a corner of pleat `k`: a face lies in front.
+fn corner_angle(k: usize, at: f32) -> f32 {
+    -PI + (k as f32 + at - 0.41 + 0.5 * (PLEATS % 2) as f32) * TAU / PLEATS as f32
+}
+
 /// The skirt, outside and inside.
 pub(super) fn build(model: &mut Model) -> Part {
     let bones = chains(model);
     let skeleton = &model.skeleton;
     let mut part = Part::new("Skirt", "Skirt");
     let weight = |p: Vec3| weights(skeleton, &bones, p);
-    let step = TAU / PLEATS as f32;
-    // Corners of a pleat: angle in pleats, depth below the outside, u within the pleat.
-    const CORNERS: [(f32, f32, f32); 4] = [(0.0, 0.15, 0.0), (0.42, 0.0, 0.36), (0.86, -0.12, 0.68), (0.6, 1.0, 0.88)];
     let height = |r: usize| TOP + (HEM - TOP) * (r as f32 / (ROWS - 1) as f32).powf(1.05);
     let row = |y: f32, inside: f32| -> Vec<Vec3> {
         let t = (TOP - y) / (TOP - HEM);
-        let depth = 0.0016 + 0.0165 * smoothstep(0.02, 0.9, t);
-        (0..PLEATS)
-            .flat_map(|k| {
-                CORNERS.map(|(at, fold, _)| {
-                    // Half a pleat off, so that a face lies in front.
-                    let angle = -PI + (k as f32 + at - 0.43 + 0.5) * step;
-                    // The hem waves a little.
-                    let dip = 0.004 * smoothstep(0.7, 1.0, t) * (angle * 3.0).cos();
-                    // Inside no cloth lies in folds, so that none comes through those outside.
-                    let deep = if inside > 0.0 { 1.1 } else { fold };
-                    surface(angle, y - dip, -deep * depth - inside)
-                })
-            })
-            .collect()
+        // Sewn down over the hips, free below.
+        let depth = 0.0012 + 0.0225 * smoothstep(0.05, 0.95, t);
+        let place = |k: usize, [at, fold, drop, _]: [f32; 4]| {
+            // Inside no cloth lies in folds, so that none comes through those outside.
+            let fold = if inside > 0.0 { 1.08 } else { fold };
+            // Above, the faces meet.
+            let at = at + (1.0 - at) * (at / 0.82).min(1.0).powi(3) * 0.8 * smoothstep(0.42, 0.06, t);
+            surface(corner_angle(k, at), y - drop * smoothstep(0.75, 1.0, t), -fold * depth - inside)
+        };
+        (0..PLEATS).flat_map(|k| CORNERS.map(|corner| place(k, corner))).collect()
     };
     let per_row = PLEATS * CORNERS.len();
     let uv = |r: f32, c: f32| {
         let i = (c * per_row as f32).round() as usize;
         let (k, corner) = (i / CORNERS.len(), i % CORNERS.len());
-        Vec2::new((k as f32 + CORNERS[corner].2) / PLEATS as f32, 0.01 + 0.93 * r)
+        Vec2::new((k as f32 + CORNERS[corner][3]) / PLEATS as f32, 0.01 + 0.93 * r)
     };
     // Outside, then under the hem, then up inside.
     let outside: Vec<Vec<Vec3>> = (0..ROWS).map(|r| row(height(r), 0.0)).collect();
     grid(&mut part, &outside, true, uv, weight);
+    let outer = part.vertices.len();
     let inside: Vec<Vec<Vec3>> = [HEM + 0.0002, HEM + 0.002, 0.76, 0.84]
         .iter()
         .enumerate()
         .map(|(i, y)| row(*y, if i == 0 { 0.0 } else { 0.0032 }))
         .collect();
     grid(&mut part, &inside, true, |r, c| Vec2::new(uv(0.0, c).x, 0.955 + 0.04 * r), weight);
+    part.smooth_normals();
+    press(&mut part, outer);
     part
+}
+
+/// Normals of pressed cloth: those of a face hardly turn over its width, so that light steps from pleat to pleat.
+fn press(part: &mut Part, outer: usize) {
+    let columns = PLEATS * CORNERS.len() + 1;
+    for i in 0..outer {
+        let (k, corner) = ((i % columns) / CORNERS.len() % PLEATS, i % columns % CORNERS.len());
+        if corner < 3 {
+            let v = &mut part.vertices[i];
+            let middle = corner_angle(k, CORNERS[1][0]);
+            let own = v.position.x.atan2(v.position.z);
+            let turn = (own - middle + 3.0 * PI).rem_euclid(TAU) - PI;
+            let (s, c) = (middle + 0.55 * turn).sin_cos();
+            v.normal = Vec3::new(s, 0.26, c).normalize();
+        }
+    }
 }
 
 /// The belt round the waist.

@@ -63,7 +63,8 @@ const STONE_STANDS: f32 = 0.019;
 fn materials(model: &mut Model) {
     let texture = |name, paint| Texture { name, paint, repeat: false };
     model.textures.extend([
-        texture("metal_highlight", paint::metal_highlight as fn() -> _),
+        texture("bow", bow::paint as fn() -> _),
+        texture("metal_highlight", paint::metal_highlight),
         texture("amber", paint::amber),
         texture("amber_matcap", paint::amber_matcap),
         texture("diamond_matcap", paint::diamond_matcap),
@@ -83,14 +84,7 @@ fn materials(model: &mut Model) {
         ..Material::default()
     };
     model.materials.extend([
-        Material {
-            name: "Cloth_Bow",
-            color: srgba(0x39406e),
-            shade: srgb(0x242650),
-            outline: 0.0008,
-            outline_color: srgb(0x12132b),
-            ..Material::default()
-        },
+        bow::material(),
         metal("Metal_Brooch", 0x8c5a22, 0x4e2b1e, 0x2e180f, [0.8; 3]),
         metal("Metal_Pin", 0x6c7590, 0x3f4462, 0x23243c, [0.42, 0.56, 0.95]),
         Material {
