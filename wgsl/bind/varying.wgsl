@@ -39,6 +39,8 @@ struct Varying {
     @if(weighed) @location(10) @interpolate(flat) weigh: vec3f,
     // How much is seen through hair.
     @if(opacity) @location(11) @interpolate(flat) opacity: f32,
+    // Share that a line covers of its pixels.
+    @if(line) @location(11) line_cover: f32,
     // Part of the character; in channels of strips of hair the strip.
     @if(part || channel_strips || channel_strip_order) @location(12) @interpolate(flat) part: u32,
     // Depth in a map that is drawn from a light.

@@ -30,8 +30,9 @@ fn bangs_shadow_shade(s: Surface, border: Border) -> Border {
     @if(skin_edge) wanted = max(wanted, (1.0 + b.edge) * b.of_face);
     var lit = bangs_lit(s.at.actor, s.at.bangs, BANGS_LAYER, wanted > 0.0);
     @if(bangs_lids) lit = min(lit, bangs_lit(s.at.actor, s.at.bangs, LIDS_LAYER, wanted > 0.0));
-    b.received = share * bangs_share(lit, m.edges, m.strength);
-    b.bangs = mix(vec3f(1.0), m.color, b.received);
+    let received = share * bangs_share(lit, m.edges, m.strength);
+    b.received = 1.0 - (1.0 - b.received) * (1.0 - received);
+    b.bangs = mix(vec3f(1.0), m.color, received);
     @if(skin_edge) b.edge = min(b.edge, mix(1.0, bangs_depth(lit, m.edges), m.strength * b.of_face));
     @if(channel_bangs_shadow) shown = vec3f(lit);
     return b;
