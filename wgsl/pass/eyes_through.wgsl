@@ -23,9 +23,11 @@ fn vs_main(in: VertexInput) -> Varying {
 fn fs_main(in: Varying, @builtin(front_facing) front_facing: bool) -> @location(0) vec4f {
     var color = drawn(in, front_facing).color;
     // What is nearly black darkens hair instead of colouring it: on black hair it is not seen.
-    color *= smoothstep(0.0, 0.06, luminance(color));
+    let colours = smoothstep(0.0, 0.06, luminance(color));
+    let opacity = in.opacity * mix(0.6, 1.0, colours);
+    color *= colours;
     // Everything else is black: as bright as it is seen.
     @if(channel_eyes_through) color = vec3f(1.0);
     @if(channel && !channel_eyes_through) discard;
-    return vec4f(encoded(color) * in.opacity, in.opacity);
+    return vec4f(encoded(color) * opacity, opacity);
 }
