@@ -20,8 +20,8 @@ crate::section! {
         /// Strength.
         strength: f32 = 1.0, in 0.0..=1.0;
         /// Shares of light between which the shadow fades, growing: equal ones give a hard edge.
-        edges: [f32; 2] = [0.3, 0.7], in 0.0..=1.0;
-        /// Receives the shadow of lids and lashes too, as the eyeball does.
+        edges: [f32; 2] = [0.35, 0.65], in 0.0..=1.0;
+        /// Receives the shadow of lids and lashes instead, as drawn eyes do.
         lids: bool = false;
     }
 }

@@ -14,7 +14,8 @@ crate::section! {
     {
         /// Width and its unit: metres, or a share of the picture's height.
         width: OutlineWidth = OutlineWidth::World { metres: 0.0 }, in 0.0..=10.0;
-        /// Least and greatest width of a line in the world, pixels of a picture 1024 high, growing.
+        /// Least and greatest width of a line in the world, pixels of a picture 1024 high, growing; those that take the
+        /// colour of their surface are at most 4 wide without it, as a pen's.
         clamp_px: Option<[f32; 2]> = None, in 0.0..=1000000.0;
         /// Mask of the width: green channel, linear.
         width_mask: Option<TextureRef> = None, read LINEAR;
@@ -108,7 +109,15 @@ crate::part! {
     }
 }
 
+/// Greatest width of a line in the colour of its surface, pixels of a picture 1024 high.
+const PEN_PX: f32 = 4.0;
+
 impl Outline {
+    /// Bounds of its width, where there are any.
+    fn bounds_px(&self) -> Option<[f32; 2]> {
+        self.clamp_px.or(self.tint.map(|_| [0.0, PEN_PX]))
+    }
+
     /// Whether the surface must be shaded for the colour of the line: black stays black whatever the light.
     fn is_mixed(&self, of: &Surroundings<'_>) -> bool {
         let has_color = self.color != [0.0; 3] || of.driven.shifts(ColorTarget::OutlineColor);
@@ -118,6 +127,7 @@ impl Outline {
 
 impl Section for Outline {
     fn put(&self, gpu: &mut Block<'_>, _: &Surroundings<'_>) {
+        gpu.put("clamp_px", self.bounds_px().unwrap_or_default());
         let tint = self.tint.unwrap_or_default();
         gpu.put("shift", hue_saturation_columns(tint.hue_rad, tint.saturation));
         gpu.put("parts", tint.parts.unwrap_or_default().colors.map(|[r, g, b]| [r, g, b, 1.0]));
@@ -126,7 +136,7 @@ impl Section for Outline {
     fn options(&self, on: &mut Options, of: &Surroundings<'_>) {
         let is_screen = matches!(self.width, OutlineWidth::Screen { .. });
         on.set("outline_screen", is_screen);
-        on.set("outline_bounds", self.clamp_px.is_some() && !is_screen);
+        on.set("outline_bounds", self.bounds_px().is_some() && !is_screen);
         on.set("outline_push", self.push_m > 0.0);
         on.set("outline_mixed", self.is_mixed(of));
         on.set("outline_tint", self.tint.is_some());

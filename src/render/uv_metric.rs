@@ -81,13 +81,13 @@ fn boxed<'a>(uvs: impl Iterator<Item = &'a [f32; 2]>) -> [[f32; 2]; 2] {
 
 /// Whether a material is measured.
 fn measures(material: &Material) -> bool {
-    material.dissolve.is_some() || material.is_hashed() || material.skin.is_some()
+    material.is_hashed() || material.skin.is_some()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::material::{Dissolve, Material};
+    use crate::material::{Material, Skin};
     use crate::scene::{Mesh, Node};
 
     #[test]
@@ -99,14 +99,14 @@ mod tests {
             ..Primitive::default()
         };
         let mut scene = Scene {
-            materials: vec![Material { dissolve: Some(Dissolve::default()), ..Material::default() }],
+            materials: vec![Material { skin: Some(Skin::default()), ..Material::default() }],
             meshes: vec![Mesh { primitives: vec![part], ..Mesh::default() }],
             nodes: vec![Node { mesh: Some(0), ..Node::default() }],
             ..Scene::default()
         };
         let [u, v] = metres_per_uv(&scene)[0];
         assert!((u - 0.08).abs() < 1e-6 && (v - 0.5).abs() < 1e-6, "{u} {v}");
-        scene.materials[0].dissolve = None;
+        scene.materials[0].skin = None;
         assert_eq!(metres_per_uv(&scene), [[1.0; 2]]);
     }
 }

@@ -10,11 +10,11 @@ crate::part! {
     #[derive(Copy)]
     Bangs {
         /// Where the shadow's light stands, in the frame of the head: angle to the character's left, and height over the
-        /// front, radians. `None`: where the directional light stands, held within 35 degrees to the sides and between 10
-        /// and 40 degrees of height, so that the shadow stays one of bangs and off the cheeks.
+        /// front, radians. `None`: where the directional light stands, held within 25 degrees to the sides and between 25
+        /// and 40 degrees of height, so that the shadow has the shape of its strands and stays off the cheeks.
         direction_rad: Option<[f32; 2]> = None, in -3.15..=3.15;
         /// Width of the soft edge, metres.
-        soft_width_m: f32 = 0.003, in 0.0005..=0.05;
+        soft_width_m: f32 = 0.0045, in 0.0005..=0.05;
         /// Sharpness c of the exponential test, for each unit of the depth range, which is twice the width of the camera's
         /// picture: of a caster `gap` before the receiver, `exp(-c gap)` leaks.
         hardness: f32 = 1500.0, in 100.0..=5000.0;

@@ -83,7 +83,7 @@ impl Bodies {
         }
         let own = order.len().min(MOST_SHADOWED as usize);
         let has_world = on_world || order.len() > own;
-        let side = order.iter().filter_map(|i| list[*i].data().shadow.as_ref()).map(|f| f.settings.side).max();
+        let side = order.iter().filter_map(|i| list[*i].data().shadow.as_ref()).map(ShadowFit::side).max();
         let side = side.unwrap_or(SelfShadow::default().side);
         let wanted = own as u32 + u32::from(has_world);
         let has_others = wanted > 0 && ShadowMap::fit(shadow, gpu, side, wanted);

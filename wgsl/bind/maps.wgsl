@@ -49,10 +49,11 @@ fn shadow_lit(actor: u32, at: vec4f, wanted: bool) -> f32 {
     return shadow_drawn(actor, shadow_soft(actor, at, wanted));
 }
 
-// The same by what its map has.
+// The same by what its map has: near or far, the edge is soft over two pixels.
 fn shadow_drawn(actor: u32, soft: f32) -> f32 {
     @if(skin_penumbra) return min(soft, actors[actor].key_light);
-    @if(!skin_penumbra) return min(shadow_edge(soft), actors[actor].key_light);
+    @if(!skin_penumbra) let width = clamp(2.0 * length(vec2f(dpdx(soft), dpdy(soft))), 0.08, 0.7);
+    @if(!skin_penumbra) return min(shadow_edge(soft, width), actors[actor].key_light);
 }
 
 // Share of light that the shadow map lets through there, with an edge as wide as it is filtered.

@@ -49,7 +49,7 @@ struct Border {
     // character's own.
     of_face: f32,
     of_body: f32,
-    // Share of the key light that arrives, and of the shadow of bangs.
+    // Share of the key light that arrives, and of the shadow that is received: of bangs, and on ramps of the character itself.
     own_lit: f32,
     received: f32,
     // Place across the warm edge of skin: 0 at the drawn border, -1 where it ends in shade, positive in light.

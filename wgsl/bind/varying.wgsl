@@ -38,7 +38,11 @@ struct Varying {
     // among all of them.
     @if(weighed) @location(10) @interpolate(flat) weigh: vec3f,
     // How much is seen through hair.
-    @if(opacity) @location(11) @interpolate(flat) opacity: f32,
+    @if(opacity) @location(10) @interpolate(flat) opacity: f32,
+    // Share that a line covers of its pixels.
+    @if(line) @location(10) line_cover: f32,
+    // Of what burns: its place in the space of the character, and its height in shares of the character's.
+    @if(dissolve) @location(11) burn: vec4f,
     // Part of the character; in channels of strips of hair the strip.
     @if(part || channel_strips || channel_strip_order) @location(12) @interpolate(flat) part: u32,
     // Depth in a map that is drawn from a light.
@@ -73,6 +77,11 @@ fn with_attributes(v: Vertex, given: Varying) -> Varying {
     @if(uv) out.uv = v.uv;
     @if(vertex_color || strips) out.color = v.color;
     @if(actor) out.actor = v.actor;
+    @if(dissolve) {
+        // The middle of the head stands at 5/6 of the height.
+        let height = 1.2 * actors[v.actor].head.y;
+        out.burn = vec4f(v.position, select(-1.0, saturate(v.position.y / height), height > 0.01));
+    }
     @if(skin_vertex && !depth) out.skin = v.skin;
     @if(eye_vertex && !depth) out.eye_place = v.eye_place;
     @if(eye_vertex) out.eye_axes = vec3u(

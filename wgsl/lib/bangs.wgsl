@@ -14,6 +14,13 @@ fn bangs_share(lit: f32, edges: vec2f, strength: f32) -> f32 {
     return strength * (1.0 - smoothstep(edges.x, max(edges.y, edges.x + 1e-6), lit));
 }
 
+// How far a colour is the white of an eye or of a tooth: bright, and more neutral than skin.
+fn bangs_white(color: vec3f) -> f32 {
+    let most = max(color.r, max(color.g, color.b));
+    let least = min(color.r, min(color.g, color.b));
+    return smoothstep(0.88, 0.96, least / max(most, 1e-4)) * smoothstep(0.5, 0.7, most);
+}
+
 // Place between the middle of the shadow's edge (0) and where no light arrives (-1) or all of it (1).
 fn bangs_depth(lit: f32, edges: vec2f) -> f32 {
     let middle = clamp(0.5 * (edges.x + edges.y), 0.01, 0.99);

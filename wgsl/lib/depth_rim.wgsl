@@ -28,3 +28,8 @@ fn depth_rim_resolved(width: f32, height: f32) -> f32 {
 fn depth_rim_near(distance: f32, fade: vec2f) -> f32 {
     return 1.0 - smoothstep(fade.x, max(fade.y, fade.x + 1e-4), distance);
 }
+
+// Share of the rim that a surface of this luminance shows in full light: a quarter on black, on which it would be chalk.
+fn depth_rim_on(luminance: f32) -> f32 {
+    return mix(0.25, 1.0, smoothstep(0.0, 0.1, luminance));
+}

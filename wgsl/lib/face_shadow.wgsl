@@ -63,3 +63,9 @@ fn face_stack_place(pitch: f32, pitches: vec4f, count: u32) -> vec2f {
 fn face_shading(normal_shading: f32, lit: f32, region: f32, strength: f32) -> f32 {
     return mix(normal_shading, mix(lit, normal_shading, region), strength);
 }
+
+// Share of the underside of the jaw at a place: heights of its direction from the middle of the head and of its normal, in the
+// frame of the face. Nose and lips stand too high.
+fn face_underside(place: f32, normal: f32) -> f32 {
+    return smoothstep(0.6, 0.8, -place) * smoothstep(0.1, 0.4, -normal);
+}

@@ -18,6 +18,32 @@ fn fluff_strand(at: vec2f) -> vec4f {
     return strand;
 }
 
+// Strands across a clump.
+const FLUFF_CLUMP: f32 = 6.0;
+
+// The clump at a place: how far its middle is, and which way all of it leans, -1..1.
+struct FluffClump {
+    to_middle: vec2f,
+    lean: vec3f,
+}
+
+fn fluff_clump(at: vec2f) -> FluffClump {
+    let p = at / FLUFF_CLUMP;
+    var clump = FluffClump(vec2f(0.0), vec3f(0.0));
+    var nearest = 9.0;
+    let first = vec2i(floor(p - 0.5));
+    for (var i = 0; i < 4; i++) {
+        let cell = first + vec2i(i % 2, i / 2);
+        let middle = vec2f(cell) + 0.5 + (cell_hash(vec3i(cell, 5)).xy - 0.5) * 0.6;
+        let away = distance(p, middle);
+        if away < nearest {
+            nearest = away;
+            clump = FluffClump((middle - p) * FLUFF_CLUMP, cell_hash(vec3i(cell, 6)) * 2.0 - 1.0);
+        }
+    }
+    return clump;
+}
+
 // Opacity of a shell at `level` of the length, 0..1.
 fn fluff_cover(height: f32, level: f32, softness: f32) -> f32 {
     return saturate((height - level) / max(softness, 1e-3) + 1.0 - level);

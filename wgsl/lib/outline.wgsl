@@ -10,11 +10,26 @@ fn outline_clip(clip: vec4f, normal_clip: vec2f, height_ratio: f32, aspect: f32)
     return clip + vec4f(offset.x / aspect, offset.y, 0.0, 0.0);
 }
 
-// Width in the world, metres, so that it covers no fewer and no more pixels of a picture 1024 high than `bounds` say.
-// `focal` is the cotangent of half the vertical field of view, `distance` is along the view. 1e-6: at the eye itself.
-fn outline_bounded(width_m: f32, focal: f32, distance: f32, bounds: vec2f) -> f32 {
-    let px_per_m = 512.0 * focal / max(distance, 1e-6);
-    return clamp(width_m * px_per_m, bounds.x, max(bounds.x, bounds.y)) / px_per_m;
+// Pixels of a metre in a picture `height` high. `focal` is the cotangent of half the vertical field of view, `distance` is
+// along the view. 1e-6: at the eye itself.
+fn outline_px_per_m(focal: f32, distance: f32, height: f32) -> f32 {
+    return 0.5 * height * focal / max(distance, 1e-6);
+}
+
+// Width in pixels, so that it covers no fewer and no more pixels of a picture 1024 high than `bounds` say.
+fn outline_bounded(width_px: f32, height: f32, bounds: vec2f) -> f32 {
+    let px = height / 1024.0;
+    return clamp(width_px, bounds.x * px, max(bounds.x, bounds.y) * px);
+}
+
+// Least width of a line that is drawn, pixels: it would break into dots.
+const OUTLINE_LEAST_PX: f32 = 1.5;
+
+// What a width in pixels is multiplied by so that the line stays whole, and its cover, so that it is no darker for that.
+// 1e-4: a line of no width stays hidden.
+fn outline_resolved(width_px: f32) -> vec2f {
+    let cover = min(width_px / OUTLINE_LEAST_PX, 1.0);
+    return vec2f(select(0.0, 1.0 / max(cover, 1e-4), cover > 1e-4), cover);
 }
 
 // Colour of a line round a surface of a colour: its power, turned by `shift` in hue and saturation, times `tint`. 1e-6: pow

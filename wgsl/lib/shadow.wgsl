@@ -46,51 +46,56 @@ fn shadow_moved(normal: vec3f, right: vec3f, up: vec3f, to_light: vec3f) -> vec3
 fn shadow_share(
     map: texture_depth_2d_array, map_sampler: sampler_comparison, at: vec3f, layer: i32, spread: f32, wanted: bool
 ) -> f32 {
-    return shadow_edge(shadow_filtered(map, map_sampler, at, layer, spread, wanted));
+    return shadow_edge(shadow_filtered(map, map_sampler, at, layer, spread, wanted), 0.3);
 }
 
-// Share of light at a place of a layer: the mean over a square `spread` wide (share of the map's width, 3 to 5 texels). What the
-// caller does not need (`wanted`) is lit.
+// Share of light at a place of a layer: the mean about it, by a bell that ends 1.5 texels beyond a square `spread` wide (share
+// of the map's width, 3 to 5 texels). What the caller does not need (`wanted`) is lit.
 fn shadow_filtered(
     map: texture_depth_2d_array, map_sampler: sampler_comparison, at: vec3f, layer: i32, spread: f32, wanted: bool
 ) -> f32 {
     let size = vec2f(textureDimensions(map));
-    let half = spread * size.x * 0.5;
+    let reach = spread * size.x * 0.5 + 1.5;
     let p = at.xy * size - 0.5;
-    // Six by six texels, four at a time.
-    let first = floor(p) - 2.0;
+    // Eight by eight texels, four at a time.
+    let first = floor(p) - 3.0;
     let f = p - floor(p);
     // A count of 0 rather than a branch: software rasterizers walk both sides of branches, but leave loops early.
     let corners = select(4, 0, !wanted);
     var texels = select(0.0, 16.0, corners == 0);
-    var lit = 0.0;
     for (var i = 0; i < corners; i++) {
-        let place = vec2f(f32(i % 2), f32(i / 2)) * 4.0;
+        let place = vec2f(f32(i % 2), f32(i / 2)) * 6.0;
         let four = textureGatherCompare(map, map_sampler, (first + place + 1.0) / size, layer, at.z);
         texels += dot(four, vec4f(1.0));
-        lit += shadow_weighted(four, place - 2.0 - f, half);
     }
-    // Where the corners agree, so does what lies between: most of a picture.
+    // Where the corners agree, so does what lies between: most of a picture. They weigh next to nothing themselves.
     let agree = texels == 0.0 || texels == 16.0;
-    let others = select(5, 0, agree);
+    let others = select(12, 0, agree);
+    var lit = vec2f(0.0, 1e-6);
     for (var i = 0; i < others; i++) {
-        // The middle of the three rows, then of the columns.
-        let place = select(vec2f(f32(i), 1.0), vec2f(1.0, f32(i - 3) * 2.0), i >= 3) * 2.0;
+        // Four rows of four but the corners.
+        let number = i + 1 + i32(i >= 2) + i32(i >= 10);
+        let place = vec2f(f32(number % 4), f32(number / 4)) * 2.0;
         let four = textureGatherCompare(map, map_sampler, (first + place + 1.0) / size, layer, at.z);
-        lit += shadow_weighted(four, place - 2.0 - f, half);
+        lit += shadow_weighted(four, place - 3.0 - f, reach);
     }
-    return select(lit / (4.0 * half * half), texels / 16.0, agree);
+    return select(lit.x / lit.y, texels / 16.0, agree);
 }
 
-// Four texels, the first of them `d` texels from the middle, by the share of each that lies in the square.
-fn shadow_weighted(four: vec4f, d: vec2f, half: f32) -> f32 {
-    let x = saturate(half + 0.5 - abs(vec2f(d.x, d.x + 1.0)));
-    let y = saturate(half + 0.5 - abs(vec2f(d.y, d.y + 1.0)));
+// Four texels, the first of them `d` texels from the middle, by their weights in the bell; then the sum of these.
+fn shadow_weighted(four: vec4f, d: vec2f, reach: f32) -> vec2f {
+    let x = shadow_bell(vec2f(d.x, d.x + 1.0) / reach);
+    let y = shadow_bell(vec2f(d.y, d.y + 1.0) / reach);
     // (0, 1), (1, 1), (1, 0), (0, 0).
-    return y.y * dot(x, four.xy) + y.x * dot(x, four.wz);
+    return vec2f(y.y * dot(x, four.xy) + y.x * dot(x, four.wz), (x.x + x.y) * (y.x + y.y));
 }
 
-// Share of light with a drawn edge: the middle of what filtering spreads, which rounds teeth and corners off.
-fn shadow_edge(lit: f32) -> f32 {
-    return smoothstep(0.35, 0.65, lit);
+fn shadow_bell(d: vec2f) -> vec2f {
+    return smoothstep(vec2f(1.0), vec2f(0.0), abs(d));
+}
+
+// Share of light with a drawn edge: the middle of what filtering spreads, which rounds teeth and corners off. `width` is the
+// share of it that is soft.
+fn shadow_edge(lit: f32, width: f32) -> f32 {
+    return smoothstep(0.5 - 0.5 * width, 0.5 + 0.5 * width, lit);
 }

@@ -2,8 +2,11 @@
 import package::bind::maps::{shadow_drawn, shadow_receiver, shadow_soft};
 import package::bind::shown::shown;
 import package::bind::surface::{Border, Surface};
-import package::bind::varying::Varying;
-import package::bind::vertex::Vertex;
+import package::bind::actor::actors;
+import package::bind::varying::{Varying, in_face_frame};
+import package::bind::vertex::{Vertex, world_position};
+import package::lib::face_shadow::face_underside;
+import package::lib::normal::normalize_or;
 import package::material::material;
 
 struct CastShadow {
@@ -13,8 +16,16 @@ struct CastShadow {
 fn cast_shadow_vary(v: Vertex, given: Varying) -> Varying {
     var out = given;
     out.shadow = shadow_receiver(v, out.world_position, out.normal);
+    @if(face_shadow) {
+        let from_middle = out.world_position - world_position(v, actors[v.actor].head);
+        let place = in_face_frame(v, normalize_or(from_middle, vec3f(0.0, 1.0, 0.0)));
+        out.shadow.w += UNDERSIDE * face_underside(place.y, in_face_frame(v, out.normal).y);
+    }
     return out;
 }
+
+// How far the underside of the jaw shows in the number of the layer, which is rounded.
+const UNDERSIDE: f32 = 0.45;
 
 fn cast_shadow_shade(s: Surface, border: Border) -> Border {
     var b = border;
@@ -23,12 +34,16 @@ fn cast_shadow_shade(s: Surface, border: Border) -> Border {
     @if(skin_edge) wanted = max(wanted, 1.0 + b.edge);
     let soft = shadow_soft(s.at.actor, s.at.shadow, wanted > 0.0);
     b.own_lit = shadow_drawn(s.at.actor, soft);
-    // On a face with a map only where that leaves it to normal shading.
-    let received = material.cast_shadow.received * b.of_body;
+    // On a face with a map only where that leaves it to normal shading, and below the jaw.
+    var of_body = b.of_body;
+    @if(face_shadow) of_body = max(of_body, saturate((s.at.shadow.w - round(s.at.shadow.w)) / UNDERSIDE));
+    let received = material.cast_shadow.received * of_body;
     let left = 1.0 - (1.0 - b.own_lit) * received;
     @if(skin_edge) b.edge = min(b.edge, mix(1.0, 2.0 * soft - 1.0, received));
     b.shading *= left;
-    b.soft *= left;
+    // By its share and not along the ramp, whose terminator is much narrower than the shadow's soft edge.
+    @if(shade_ramp) b.received = 1.0 - left;
+    @if(!shade_ramp) b.soft *= left;
     @if(channel_self_shadow) shown = vec3f(b.own_lit);
     return b;
 }

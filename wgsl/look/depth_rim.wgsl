@@ -4,7 +4,9 @@ import package::bind::lights::punctual_light;
 import package::bind::shown::shown;
 import package::bind::surface::{Shaded, Surface};
 import package::bind::uv::{UvTransform, texture_uv};
-import package::lib::depth_rim::{depth_rim_near, depth_rim_offset, depth_rim_resolved, depth_rim_side, depth_rim_step};
+import package::lib::depth_rim::{
+    depth_rim_near, depth_rim_offset, depth_rim_on, depth_rim_resolved, depth_rim_side, depth_rim_step,
+};
 import package::lib::light::luminance;
 import package::material::{depth_rim_width_mask, depth_rim_width_mask_sampler, material};
 
@@ -31,6 +33,9 @@ fn depth_rim_contour(s: Surface, l: Shaded, color: vec3f) -> vec3f {
     @if(depth_rim_width_mask) width *= textureSample(
         depth_rim_width_mask, depth_rim_width_mask_sampler, texture_uv(s.uv, m.width_mask_uv)
     ).r;
+    let lit_side = rim_side(s.normal, seen, frame.to_light);
+    // Its ends taper.
+    @if(!depth_rim_shade && !punctual) width *= mix(0.5, 1.0, lit_side);
     let offset = depth_rim_offset(seen, width, height);
     let here = distance_here(pixel);
     // Two places a pixel apart soften the inner edge; a little less, since half a pixel lies between two centres.
@@ -39,7 +44,6 @@ fn depth_rim_contour(s: Surface, l: Shaded, color: vec3f) -> vec3f {
     let far_step = distance_at(vec2i(floor(pixel.xy + offset + half_px))) - here;
     let edge = 0.5 * (depth_rim_step(near_step, m.threshold_m) + depth_rim_step(far_step, m.threshold_m))
         * depth_rim_resolved(width, height) * depth_rim_near(here, m.fade_m);
-    let lit_side = rim_side(s.normal, seen, frame.to_light);
     var contour = edge * lit_side;
     var light = m.color * frame.light_color * contour;
     @if(depth_rim_shade) {
@@ -54,7 +58,7 @@ fn depth_rim_contour(s: Surface, l: Shaded, color: vec3f) -> vec3f {
         contour = max(contour, from_there * saturate(luminance(arriving.radiance)));
     }
     @if(channel_depth_rim) shown = vec3f(contour);
-    return color + light * mix(vec3f(1.0), l.lit, m.tint);
+    return color + light * mix(vec3f(1.0), l.lit, m.tint) * depth_rim_on(luminance(l.lit));
 }
 
 // Share of a rim by the side of a light; `seen` is the normal as it is seen.

@@ -8,14 +8,14 @@ import package::material::material;
 struct Dissolve {
     color: vec3f,
     amount: f32,
-    cells: vec2i,
+    cell_m: f32,
     border: f32,
 }
 
 // Place of a point between what is gone (below 0), the glowing border (0..1) and what is whole.
-fn burning(uv: vec2f) -> f32 {
+fn burning(at: vec4f) -> f32 {
     let m = &material.dissolve;
-    return dissolve_place(dissolve_time(uv, m.cells), m.amount, m.border);
+    return dissolve_place(dissolve_time(at.xyz / m.cell_m, at.w), m.amount, m.border);
 }
 
 fn dissolve_vanish(in: Varying) {
@@ -23,18 +23,18 @@ fn dissolve_vanish(in: Varying) {
     @if(line) if material.dissolve.amount > 0.1 {
         discard;
     }
-    if burning(in.uv.xy) < 0.0 {
+    if burning(in.burn) < 0.0 {
         discard;
     }
 }
 
 fn dissolve_gone(in: Varying) -> bool {
-    return burning(in.uv.xy) < 0.0;
+    return burning(in.burn) < 0.0;
 }
 
 fn dissolve_surface(surface: Surface) -> Surface {
     var s = surface;
-    let burn = burning(s.at.uv.xy);
+    let burn = burning(s.at.burn);
     s.emission += material.dissolve.color * (1.0 - saturate(burn));
     @if(channel_emission) shown = s.emission;
     @if(channel_dissolve) shown = vec3f(saturate(burn), 1.0, 0.0);

@@ -51,8 +51,7 @@ fn toon_model(s: Surface) -> Shaded {
     l.ambient = l.gi * b.lit;
     @if(shade_ramp) {
         var ramped = ramp_color(s.uv, b.lit, b.shade, b.soft);
-        // By its share and not along the ramp, whose terminator is much narrower than the shadow's soft edge.
-        @if(bangs_shadow) ramped = mix(ramped, ramp_color(s.uv, b.lit, b.shade, 0.0), b.received);
+        @if(bangs_shadow || cast_shadow) ramped = mix(ramped, ramp_color(s.uv, b.lit, b.shade, 0.0), b.received);
         l.direct = ramped * s.light;
         @if(channel_shade_ramp) shown = vec3f(b.soft * (1.0 - b.received));
     }

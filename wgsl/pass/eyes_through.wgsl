@@ -5,6 +5,7 @@ import package::bind::surface::{drawn, encoded};
 import package::bind::varying::{Varying, in_face_frame, surface_varying};
 import package::bind::vertex::{VertexInput, vertex_of, world_position};
 import package::lib::eyes_through::{eyes_through_fade, pulled_depth};
+import package::lib::light::luminance;
 
 @vertex
 fn vs_main(in: VertexInput) -> Varying {
@@ -21,8 +22,12 @@ fn vs_main(in: VertexInput) -> Varying {
 @fragment
 fn fs_main(in: Varying, @builtin(front_facing) front_facing: bool) -> @location(0) vec4f {
     var color = drawn(in, front_facing).color;
+    // What is nearly black darkens hair instead of colouring it: on black hair it is not seen.
+    let colours = smoothstep(0.0, 0.06, luminance(color));
+    let opacity = in.opacity * mix(0.6, 1.0, colours);
+    color *= colours;
     // Everything else is black: as bright as it is seen.
     @if(channel_eyes_through) color = vec3f(1.0);
     @if(channel && !channel_eyes_through) discard;
-    return vec4f(encoded(color) * in.opacity, in.opacity);
+    return vec4f(encoded(color) * opacity, opacity);
 }

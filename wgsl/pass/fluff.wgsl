@@ -4,7 +4,7 @@ import package::bind::pixel::{Pixel, pixel};
 import package::bind::surface::{drawn, encoded};
 import package::bind::varying::{Varying, surface_varying};
 import package::bind::vertex::{VertexInput, vertex_of};
-import package::lib::fluff::{fluff_cover, fluff_shells, fluff_strand, fluff_wind};
+import package::lib::fluff::{FLUFF_CLUMP, fluff_clump, fluff_cover, fluff_shells, fluff_strand, fluff_wind};
 import package::material::{material, stage_samples};
 
 @vertex
@@ -28,11 +28,18 @@ fn fs_main(in: Varying) -> Pixel {
 
 fn shell(in: Varying) -> vec4f {
     let m = &material.fluff;
-    let strand = fluff_strand(in.uv.xy * m.density);
-    let cover = fluff_cover(strand.w, in.level, m.softness);
+    let at = in.uv.xy * m.density;
+    let clump = fluff_clump(at);
+    // Tips of a clump come together.
+    let strand = fluff_strand(at - clump.to_middle * (0.6 * in.level * in.level));
+    let height = strand.w * mix(1.0, 0.6, saturate(length(clump.to_middle) / FLUFF_CLUMP));
+    let normal = normalize(in.normal);
+    // Seen from the side shells are slices: their tips thin out.
+    let facing = saturate(dot(normal, normalize(frame.eye - in.world_position)));
+    let cover = fluff_cover(height, in.level, m.softness) * mix(1.0, smoothstep(0.0, 0.5, facing), in.level);
     var place = in;
-    // Strands catch the light each in its own way: its border has their shape.
-    place.normal = normalize(in.normal) + strand.xyz * m.ruffle;
+    // Clumps catch the light each in its own way, their strands a little: its border has their shape.
+    place.normal = normal + (clump.lean + strand.xyz * 0.2) * m.ruffle;
     var color = drawn(place, true).color * mix(m.root_light, 1.0, in.level);
     @if(channel_fluff) color = vec3f(in.level);
     return vec4f(encoded(color) * cover, cover);

@@ -8,7 +8,7 @@ import package::bind::varying::{Varying, surface_varying};
 import package::bind::vertex::{VertexInput, vertex_of, world_direction, world_position};
 import package::lib::eyes_through::pulled_depth;
 import package::lib::mtoon::mtoon_outline;
-import package::lib::outline::{outline_bounded, outline_clip, outline_tinted};
+import package::lib::outline::{outline_bounded, outline_clip, outline_px_per_m, outline_resolved, outline_tinted};
 import package::lib::shade_ramp::part_number;
 import package::look::shade_ramp::ramp_color;
 import package::material::{
@@ -27,14 +27,18 @@ fn vs_main(in: VertexInput) -> Varying {
     @if(outline_vertex_width) width *= v.color.r;
     width = stage_line(width);
     let normal = world_direction(v, v.frame.z);
+    let row = vec3f(frame.clip_from_world[0].y, frame.clip_from_world[1].y, frame.clip_from_world[2].y);
+    // Pixels over the unit of the width.
+    @if(outline_screen) let per_unit = frame.size_px.y;
+    @if(!outline_screen) let per_unit = outline_px_per_m(length(row), out.clip_position.w, frame.size_px.y);
+    @if(outline_bounds) width = outline_bounded(width * per_unit, frame.size_px.y, m.clamp_px) / per_unit;
+    let resolved = outline_resolved(width * per_unit);
+    width *= resolved.x;
+    out.line_cover = resolved.y;
     @if(outline_screen) {
         // The width is a share of the picture's height instead of metres.
         let normal_clip = (frame.clip_from_world * vec4f(normal, 0.0)).xy;
         out.clip_position = outline_clip(out.clip_position, normal_clip, width, frame.aspect);
-    }
-    @if(outline_bounds) {
-        let row = vec3f(frame.clip_from_world[0].y, frame.clip_from_world[1].y, frame.clip_from_world[2].y);
-        width = outline_bounded(width, length(row), out.clip_position.w, m.clamp_px);
     }
     @if(!outline_screen) {
         let position = world_position(v, v.position) + normal * width;
@@ -61,9 +65,9 @@ fn line(in: Varying) -> vec4f {
     }
     var color = tinted(in);
     @if(!outline_tint) color = mtoon_outline(m.color, surface.rgb, m.lighting_mix);
-    color = encoded(color);
-    @if(blend) return vec4f(color * surface.a, surface.a);
-    @if(!blend) return vec4f(color, 1.0);
+    var cover = in.line_cover;
+    @if(blend) cover *= surface.a;
+    return vec4f(encoded(color) * cover, cover);
 }
 
 // The colour of the surface in full light or in full shade, darkened and turned.

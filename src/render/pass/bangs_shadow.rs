@@ -107,7 +107,7 @@ impl BangsFit {
             let light = to_light.normalize_or(forward);
             let (x, y, z) = (light.dot(left), light.dot(up), light.dot(forward));
             let held = |angle: f32, low: f32, high: f32| angle.clamp(low.to_radians(), high.to_radians());
-            [held(x.atan2(z), -35.0, 35.0), held(y.clamp(-1.0, 1.0).asin(), 10.0, 40.0)]
+            [held(x.atan2(z), -25.0, 25.0), held(y.clamp(-1.0, 1.0).asin(), 25.0, 40.0)]
         });
         left * (yaw.sin() * pitch.cos()) + up * pitch.sin() + forward * (yaw.cos() * pitch.cos())
     }

@@ -38,7 +38,8 @@ pub(crate) fn request(picture: &Picture<'_>, of: &Composition, material: &Materi
         .with("covered", dithers)
         .with("alpha_mask", of.alpha == AlphaMode::Mask);
     let write_depth = !blend || material.alpha.write_depth;
-    Some(picture.request(recipe, Drawing { cull: Some(wgpu::Face::Front), blend, write_depth, mark: Mark::None }))
+    // Thin lines are faint.
+    Some(picture.request(recipe, Drawing { cull: Some(wgpu::Face::Front), blend: true, write_depth, mark: Mark::None }))
 }
 
 /// Draws the outlines of all opaque surfaces.

@@ -56,7 +56,16 @@ pub(crate) struct ShadowInputs<'a> {
     pub drawn: &'a dyn Fn(usize, usize) -> Option<&'a Drawn>,
 }
 
+/// Radius beyond which a map has twice the texels along a side, so that long arms do not coarsen the face, metres.
+const WIDE_M: f32 = 1.2;
+
 impl ShadowFit {
+    /// Texels along a side that it asks for.
+    pub fn side(&self) -> u32 {
+        let settings = self.settings.side;
+        if self.radius > WIDE_M { (2 * settings).min(4096) } else { settings }
+    }
+
     /// Places in a map while the middle stands there and the light so, in the world; `scale` is that of the actor.
     pub fn rows(&self, side: u32, middle: Vec3, scale: f32, to_light: Vec3) -> ShadowRows {
         let to_light = to_light.normalize_or(Vec3::Z);
@@ -69,8 +78,8 @@ impl ShadowFit {
             up: to_light.cross(right),
             to_light,
             scale: 1.0 / width / scale,
-            bias: self.settings.bias_texels * texel,
-            // The shader weighs six texels along a side.
+            bias: self.settings.bias_texels / self.settings.side as f32,
+            // The shader weighs eight texels along a side.
             spread: (self.settings.soft_width_m / width).clamp(3.0 * texel, 5.0 * texel),
             middle,
             layer: None,

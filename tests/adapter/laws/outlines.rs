@@ -209,6 +209,42 @@ fn a_line_in_the_world_keeps_to_its_bounds() {
     }
 }
 
+/// A line thinner than a pixel is as faint as it is thin, and whole: no row is without it.
+#[test]
+fn a_thin_line_is_faint_and_whole() {
+    let gpu = gpu();
+    for px in [0.3f32, 0.8] {
+        let mut material = grey();
+        let width = OutlineWidth::Screen { height_ratio: px / 256.0 };
+        material.outline = Some(Outline { width, color: [0.0, 1.0, 0.0], lighting_mix: 0.0, ..Outline::default() });
+        let image = render(&gpu, &scene(vec![(sphere(0.5, 128, 256), material)]), &view(256, 4.0));
+        let widths: Vec<f32> = (112..144)
+            .map(|y| {
+                let share = |x: u32| {
+                    let [_, g, b, _] = pixel(&image, x, y).map(|c| Srgb([c; 3]).to_linear().0[0]);
+                    (g - b).clamp(0.0, 1.0)
+                };
+                (0..128).map(share).sum()
+            })
+            .collect();
+        let mean = widths.iter().sum::<f32>() / widths.len() as f32;
+        assert!((mean - px).abs() < 0.15, "{mean} px, expected {px}");
+        assert!(widths.iter().all(|w| *w > px * 0.5), "{widths:?}: the line is torn");
+    }
+}
+
+/// In the colour of its surface a line grows no wider than a pen's, however near it is.
+#[test]
+fn a_tinted_line_is_a_pen_s_at_most() {
+    let gpu = gpu();
+    let mut material = grey();
+    let width = OutlineWidth::World { metres: 0.05 };
+    let tint = OutlineTint { factor: [0.0, 10.0, 0.0], ..OutlineTint::default() };
+    material.outline = Some(Outline { width, tint: Some(tint), ..Outline::default() });
+    let found = green_width(&render(&gpu, &scene(vec![(sphere(0.5, 128, 256), material)]), &view(1024, 4.0)));
+    assert!((found - 4.0).abs() < 1.2, "{found} px");
+}
+
 /// A line takes its width from the red of the vertex colours where it is told to.
 #[test]
 fn vertex_colours_give_a_line_its_width() {
@@ -260,7 +296,8 @@ fn a_tinted_line_dims_with_the_light() {
     let gpu = gpu();
     let mut material = two_tone();
     let width = OutlineWidth::World { metres: 0.1 };
-    material.outline = Some(Outline { width, tint: Some(OutlineTint::default()), ..Outline::default() });
+    let line = Outline { width, clamp_px: Some([0.0, 1000.0]), ..Outline::default() };
+    material.outline = Some(Outline { tint: Some(OutlineTint::default()), ..line });
     let scene = scene(vec![(sphere(0.4, 32, 64), material)]);
     let line = |intensity: f32| {
         let mut view = view(128, 5.0);
