@@ -147,7 +147,7 @@ pub(super) fn add(jacket: &mut Part, skeleton: &Skeleton) {
                 .map(|i| {
                     let p = loop_places[i].lerp(first_ring[i], t);
                     let out = (p - Vec3::new(p.x, 1.205, -0.016)).normalize_or(Vec3::Y);
-                    let seam = if k == 0 { 0.0014 } else { 0.0 };
+                    let seam = if k == 0 { 0.003 } else { 0.0 };
                     let full = 0.006 * (1.0 - (2.0 * t - 1.0).powi(2)) * smoothstep(-0.2, 0.6, out.y);
                     p + out * (full + seam)
                 })
