@@ -172,13 +172,13 @@ pub(super) fn add(jacket: &mut Part, skeleton: &Skeleton) {
     }
 }
 
-/// Lets the folds of both sleeves catch more light and shade than their height gives.
+/// Lets the folds at both elbows catch more light and shade than their height gives, and those at the armpits less.
 pub(super) fn raise_folds(jacket: &mut Part) {
     for v in jacket.vertices.iter_mut().filter(|v| v.uv.x > 0.65 && v.position.x.abs() > 0.145) {
         let [y, z] = axis(v.position.x.abs());
         let round = Vec3::new(0.0, v.position.y - y, v.position.z - z).normalize_or(Vec3::Y);
-        // The large folds of the armpit have enough of it.
-        let share = 0.35 + 0.85 * smoothstep(0.21, 0.27, v.position.x.abs());
+        // Those of the armpit are large: they would break the border of light into islands.
+        let share = -0.6 + 1.7 * smoothstep(0.2, 0.27, v.position.x.abs());
         v.normal = (v.normal + (v.normal - round) * share).normalize_or(round);
     }
 }
