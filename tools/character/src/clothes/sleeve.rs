@@ -178,7 +178,7 @@ pub(super) fn raise_folds(jacket: &mut Part) {
         let [y, z] = axis(v.position.x.abs());
         let round = Vec3::new(0.0, v.position.y - y, v.position.z - z).normalize_or(Vec3::Y);
         // Those of the armpit are large: they would break the border of light into islands.
-        let share = -0.6 + 1.7 * smoothstep(0.2, 0.27, v.position.x.abs());
+        let share = -0.35 + 1.45 * smoothstep(0.2, 0.27, v.position.x.abs());
         v.normal = (v.normal + (v.normal - round) * share).normalize_or(round);
     }
 }
