@@ -130,8 +130,6 @@ pub(super) fn jacket() -> Picture {
             }
         }
     }
-    // The seam of the shoulder.
-    c.fill(&square(0.645, 0.044, 1.0, 0.0555), 0x20254a, 1.0);
     // Piping along the front edge and the hem.
     for piping in piping() {
         c.fill(&piping, 0xe8a33d, 1.0);

@@ -147,7 +147,7 @@ pub(super) fn add(jacket: &mut Part, skeleton: &Skeleton) {
                 .map(|i| {
                     let p = loop_places[i].lerp(first_ring[i], t);
                     let out = (p - Vec3::new(p.x, 1.205, -0.016)).normalize_or(Vec3::Y);
-                    let seam = if k == 0 { 0.0014 } else { 0.0 };
+                    let seam = if k == 0 { 0.003 } else { 0.0 };
                     let full = 0.006 * (1.0 - (2.0 * t - 1.0).powi(2)) * smoothstep(-0.2, 0.6, out.y);
                     p + out * (full + seam)
                 })
@@ -172,13 +172,13 @@ pub(super) fn add(jacket: &mut Part, skeleton: &Skeleton) {
     }
 }
 
-/// Lets the folds of both sleeves catch more light and shade than their height gives.
+/// Lets the folds at both elbows catch more light and shade than their height gives, and those at the armpits less.
 pub(super) fn raise_folds(jacket: &mut Part) {
     for v in jacket.vertices.iter_mut().filter(|v| v.uv.x > 0.65 && v.position.x.abs() > 0.145) {
         let [y, z] = axis(v.position.x.abs());
         let round = Vec3::new(0.0, v.position.y - y, v.position.z - z).normalize_or(Vec3::Y);
-        // The large folds of the armpit have enough of it.
-        let share = 0.35 + 0.85 * smoothstep(0.21, 0.27, v.position.x.abs());
+        // Those of the armpit are large: they would break the border of light into islands.
+        let share = -0.35 + 1.45 * smoothstep(0.2, 0.27, v.position.x.abs());
         v.normal = (v.normal + (v.normal - round) * share).normalize_or(round);
     }
 }

@@ -28,11 +28,11 @@ pub(super) fn piping(jacket: &mut Part, skeleton: &Skeleton, line: &[Vec3], radi
 
 /// The left lapel, from the break of the front edge up under the fur: height, and share of the half's width that it takes.
 const LAPEL: &[[f32; 2]] = &[
-    [1.186, 0.13],
-    [1.166, 0.2],
-    [1.152, 0.232],
-    [1.13, 0.205],
-    [1.105, 0.155],
+    [1.186, 0.05],
+    [1.17, 0.11],
+    [1.151, 0.168],
+    [1.13, 0.184],
+    [1.105, 0.153],
     [1.08, 0.098],
     [1.055, 0.036],
     [1.045, 0.008],
@@ -50,7 +50,7 @@ pub(super) fn lapel(jacket: &mut Part, skeleton: &Skeleton) {
                 .collect()
         })
         .collect();
-    let edge: Vec<Vec3> = rows[1..].iter().map(|row| row[3]).collect();
+    let edge: Vec<Vec3> = rows.iter().map(|row| row[3]).collect();
     let uv = |r: f32, c: f32| Vec2::new(0.3 + 0.1 * c, 0.06 + 0.2 * r);
     grid(jacket, &rows, false, uv, |p| weights::torso(skeleton, p));
     piping(jacket, skeleton, &edge, 0.0016);
