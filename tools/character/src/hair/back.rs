@@ -118,20 +118,20 @@ pub(super) fn build() -> Vec<Placed> {
     }
     // Over the borders, shorter.
     for i in 0..6u32 {
-        let across = -0.88 + 1.76 * i as f32 / 5.0 + 0.09 * vary(i, 43);
+        let across = -0.88 + 1.76 * i as f32 / 5.0 + 0.07 * vary(i, 13);
         let fall = Fall {
             across,
             tip: 1.06 + 0.15 * hash(i, 3, 16),
-            lift: 0.0125 + 0.003 * vary(i, 14),
+            lift: 0.0165 + 0.002 * vary(i, 14),
             curl: [0.22 * vary(i, 18), 0.012],
-            start: 10.0 + 10.0 * hash(i, 2, 19),
+            start: 22.0 + 12.0 * hash(i, 2, 19),
             id: i + 40,
         };
         let lock = Lock {
             guide: guide(&fall),
             width: 0.018 + 0.006 * hash(i, 2, 17),
             thickness: 0.0095,
-            root: 0.4,
+            root: 0.25,
             belly: 0.45,
             roll: [0.12 * vary(i, 15), 0.6 * vary(i, 23)],
             strip: 2 + (i % 2) as usize,
