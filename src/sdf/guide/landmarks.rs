@@ -7,14 +7,14 @@ use super::relief::{Field, Relief, SIDE, sample, smoothed};
 use crate::scene::{HumanBone, Mesh, Role, Scene};
 
 /// Contrast of luminance over its surroundings from which a file counts as painting a feature itself.
-const PAINTED: f32 = 0.05;
+const PAINTED: f32 = 0.03;
 /// Depth of a crease from which a mouth counts as modelled, share of the face's height.
 const MODELLED: f32 = 0.0008;
 
 /// What a face is read by. Lengths are shares of the face's height, from its lower edge and from its middle line.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Landmarks {
-    /// Height of the face, metres: that of what follows the head bone.
+    /// Height of the face, metres: of what follows the head bone, and a margin below.
     pub height_m: f32,
     /// Where its lower edge meets its middle line, under the skull, in the world at rest, metres.
     pub foot_m: [f32; 3],

@@ -14,6 +14,9 @@ pub(super) const SIDE: usize = 384;
 /// Angle round the axis on either side of the front that the relief holds, radians.
 pub(super) const REACH: f32 = 2.0;
 
+/// Share of the head's height that the relief reaches below it, so that coarser levels of its maps keep the neck apart.
+pub(super) const MARGIN: f32 = 0.09;
+
 /// A field over the relief, rows from above.
 pub(super) type Field = Vec<f32>;
 
@@ -38,9 +41,11 @@ impl Relief {
     pub(super) fn new(scene: &Scene, material: usize) -> Option<Self> {
         let paint = Painted::new(scene, scene.materials.get(material)?);
         let (low, high) = scene.face_box(Some(material))?;
+        let head = high.y - low.y;
+        let low = low.with_y(low.y - MARGIN * head);
         let height = high.y - low.y;
         // Masks have no back: they lie round the same axis as a whole head.
-        let depth = ((high.z - low.z) * 0.5).max(0.4 * height);
+        let depth = ((high.z - low.z) * 0.5).max(0.4 * head);
         let foot = Vec3::new((low.x + high.x) * 0.5, low.y, high.z - depth);
         let mut raster = Raster::new(SIDE);
         for (primitive, matrix, shares) in faces(scene, material)? {

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 
 use super::FaceStyle;
 use super::landmarks::{Landmarks, at};
-use super::relief::{Field, REACH, Relief, SIDE, sample, smoothed};
+use super::relief::{Field, MARGIN, REACH, Relief, SIDE, sample, smoothed};
 
 /// Thresholds over the relief.
 pub(super) struct Thresholds {
@@ -46,7 +46,9 @@ impl Thresholds {
                     dark_at = drawn(landmarks, style, place, dark_at);
                 }
                 let behind = fade(77.0, 100.0, turned.to_degrees().abs());
-                let below = fade(0.98, 0.75, share[i]);
+                // Nothing follows the head there.
+                let under = fade(0.8, 0.6, place.y * (1.0 + MARGIN) / MARGIN);
+                let below = fade(0.98, 0.75, share[i]).max(under);
                 ((dark_at / 180.0).clamp(0.0, 1.0), behind.max(below))
             })
             .collect();
