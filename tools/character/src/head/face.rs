@@ -183,17 +183,17 @@ fn close_ends(skin: &mut Part, skeleton: &Skeleton, columns: usize) {
 }
 
 /// Normals of the face follow the proxy, as studios edit them: the border of light and shade stays one calm curve. Those
-/// under the jaw and on the neck look down, so that both lie in the head's shade as a whole.
+/// under the jaw and on the neck, down to the collar, look down, so that both lie in the head's shade as a whole.
 fn edit_normals(skin: &mut Part, rows: &[(usize, usize)]) {
     for (v, (r, _)) in skin.vertices.iter_mut().zip(rows) {
         let p = v.position;
         let above_jaw = 1.0 - smoothstep(JAW as f32 - 2.0, JAW as f32 + 0.6, *r as f32);
         let share = 0.9 * above_jaw * smoothstep(-0.03, 0.005, p.z);
         v.normal = v.normal.lerp(proxy_normal(p), share).normalize();
-        let below = smoothstep(JAW as f32, JAW as f32 + 1.5, *r as f32);
+        let below = smoothstep(JAW as f32, JAW as f32 + 1.5, *r as f32) * smoothstep(1.24, 1.255, p.y);
         // Down, and inwards as far as that does not gainsay the surface.
         let flat = v.normal.with_y(0.0);
-        let outward = ((v.normal.y - 0.07) / flat.length_squared().max(0.05)).max(-0.25);
+        let outward = ((v.normal.y - 0.035) / flat.length_squared().max(0.05)).max(-0.25);
         v.normal = v.normal.lerp((flat * outward - Vec3::Y).normalize(), below).normalize();
     }
 }

@@ -26,7 +26,6 @@ pub(super) fn add(model: &mut Model) {
             texture: Some("face"),
             shade: srgb(0xf3cac0),
             shade_texture: Some("face"),
-            shift: 0.05,
             toony: 0.97,
             outline: 0.0009,
             outline_color: srgb(0x8c4a44),
