@@ -23,7 +23,7 @@ fn outline_bounded(width_px: f32, height: f32, bounds: vec2f) -> f32 {
 }
 
 // Least width of a line that is drawn, pixels: it would break into dots.
-const OUTLINE_LEAST_PX: f32 = 1.5;
+const OUTLINE_LEAST_PX: f32 = 1.0;
 
 // What a width in pixels is multiplied by so that the line stays whole, and its cover, so that it is no darker for that.
 // 1e-4: a line of no width stays hidden.

@@ -63,7 +63,11 @@ impl ShadowFit {
     /// Texels along a side that it asks for.
     pub fn side(&self) -> u32 {
         let settings = self.settings.side;
-        if self.radius > WIDE_M { (2 * settings).min(4096) } else { settings }
+        if self.radius > WIDE_M {
+            (2 * settings).min(4096)
+        } else {
+            settings
+        }
     }
 
     /// Places in a map while the middle stands there and the light so, in the world; `scale` is that of the actor.
