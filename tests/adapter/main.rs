@@ -7,6 +7,7 @@ mod support;
 mod eyeballs;
 
 mod adapters;
+mod backdrop;
 mod bangs_shadow;
 mod body_looks;
 mod channels;

@@ -88,7 +88,8 @@ pub(crate) struct Args {
     /// Expressions and their weights, 0 to 1.
     #[arg(long, value_name = "NAME=W,...", value_delimiter = ',', value_parser = args::expression)]
     expression: Vec<(String, f32)>,
-    /// Pose of the humanoid, which clips go over [default: rest; relaxed for the built-in character and with clips].
+    /// Pose of the humanoid, which clips go over [default: rest; relaxed for the built-in character, with clips
+    /// and with a preset].
     #[arg(long, value_name = "rest|relaxed|bend|offer", value_parser = args::stance)]
     pose: Option<Stance>,
     #[arg(long, value_name = "plain|anime|natural|FILE.look.toml", value_parser = args::look, help = args::LOOK_HELP)]
@@ -299,9 +300,8 @@ fn motions(
     let somebody_has = |name: &str| scenes.iter().any(|scene| has(scene, name));
     let sources = Sources::load(&args.motion.clip)?;
     let posed = |(model, scene): (&Placed, &Scene)| {
-        let is_at_ease = model.path.is_none() || !args.motion.clip.is_empty();
-        let usual = preset.map_or(if is_at_ease { Stance::Relaxed } else { Stance::Rest }, |p| p.stance);
-        let stance = args.pose.unwrap_or(usual);
+        let is_at_ease = model.path.is_none() || !args.motion.clip.is_empty() || preset.is_some();
+        let stance = args.pose.unwrap_or(if is_at_ease { Stance::Relaxed } else { Stance::Rest });
         let mut expressions: Vec<(String, f32)> =
             args.expression.iter().filter(|(name, _)| has(scene, name) || !somebody_has(name)).cloned().collect();
         if args.expression.is_empty() {

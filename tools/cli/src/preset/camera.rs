@@ -9,6 +9,8 @@ use crate::args::ViewName;
 
 /// Share of the picture above the head.
 const ABOVE: f32 = 0.04;
+/// Where the knees of a stout figure are, below the middle of its picture, share of half its height.
+const KNEES: f32 = 0.72;
 /// Distance between the figures of a row, and their height, as shares of the height of the tallest.
 const APART: f32 = 0.56;
 const ROW: f32 = 1.16;
@@ -56,16 +58,17 @@ pub(super) fn view(shot: &Shot, stage: &Stage, view: Option<ViewName>, yaw: Opti
     seen
 }
 
-/// Fits the height alone: arms and hats may be cut at the sides.
+/// Fits the height alone: arms and hats may be cut at the sides. Feet stay out of the picture, which has no ground.
 fn zoomed(shot: &Shot, stage: &Stage, seen: &mut View, framing: Framing, yaw_rad: f32) {
-    let wide = View::framed_stage(stage, framing, yaw_rad, [4000, 1000]).camera;
+    let half = |camera: &Camera| (camera.fov_y_rad * 0.5).tan() * camera.eye.distance(camera.target);
+    let [wide, full] = [framing, Framing::Full].map(|f| View::framed_stage(stage, f, yaw_rad, [4000, 1000]).camera);
     // Several stand beside each other and must all fit.
     let of = if stage.actors.len() > 1 { seen.camera } else { wide };
-    let half = (of.fov_y_rad * 0.5).tan() * of.eye.distance(of.target);
-    let top = wide.target.y + (wide.fov_y_rad * 0.5).tan() * wide.eye.distance(wide.target);
-    let half_now = half * shot.zoom;
-    let target = of.target.with_y(top + half_now * 2.0 * ABOVE - half_now);
-    seen.camera = Camera { target, eye: target + (of.eye - of.target) * shot.zoom, ..of };
+    let top = wide.target.y + half(&wide);
+    let knees = full.target.y - half(&full) * KNEES;
+    let half_now = (half(&of) * shot.zoom).min((top - knees) * 0.5 / (1.0 - ABOVE));
+    let target = of.target.with_y(top + half_now * (2.0 * ABOVE - 1.0));
+    seen.camera = Camera { target, eye: target + (of.eye - of.target) * (half_now / half(&of)), ..of };
 }
 
 /// Fits a row of figures, from farther away.

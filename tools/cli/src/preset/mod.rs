@@ -3,7 +3,6 @@
 mod camera;
 
 use hikage::color::{LinearRgb, Srgb};
-use hikage::motion::Stance;
 use hikage::scene::{Ambient, Backdrop, DirectionalLight, Lights, Post, PunctualLight};
 use hikage::{Actor, Background, Ground, Stage, View};
 
@@ -28,7 +27,6 @@ pub(crate) enum PresetName {
 /// A composition. Angles are in degrees, to the character's left and upwards.
 pub(crate) struct Preset {
     pub(crate) size: [u32; 2],
-    pub(crate) stance: Stance,
     /// Expressions, of those that a model has.
     pub(crate) expressions: &'static [(&'static str, f32)],
     pub(crate) wind: Option<[f32; 3]>,
@@ -40,7 +38,6 @@ pub(crate) struct Preset {
     ambient: [[f32; 3]; 2],
     /// Light from behind, on edges.
     rim: Option<Lamp>,
-    bloom: bool,
     backdrop: Backdrop,
 }
 
@@ -73,7 +70,6 @@ impl PresetName {
         match self {
             Self::Cover => Preset {
                 size: [1024, 1440],
-                stance: Stance::Relaxed,
                 expressions: &[("relaxed", 0.3)],
                 wind: Some([0.16, 0.02, 0.05]),
                 looks_at_camera: true,
@@ -82,7 +78,6 @@ impl PresetName {
                 key: Lamp { yaw: -16.0, pitch: 34.0, color: [1.0, 0.97, 0.94], intensity: 1.0 },
                 ambient: [[0.11, 0.11, 0.14], [0.1, 0.09, 0.1]],
                 rim: Some(Lamp { yaw: 148.0, pitch: 24.0, color: [1.0, 0.9, 0.8], intensity: 0.7 }),
-                bloom: true,
                 backdrop: backdrop(
                     ["#6ea3ee", "#b9c4fa", "#ffd3dc"],
                     ("#a89a88", [0.5, 0.28], 0.6),
@@ -91,7 +86,6 @@ impl PresetName {
             },
             Self::Portrait => Preset {
                 size: [1024, 1280],
-                stance: Stance::Relaxed,
                 expressions: &[("relaxed", 0.25)],
                 wind: Some([0.05, 0.0, 0.02]),
                 looks_at_camera: true,
@@ -100,7 +94,6 @@ impl PresetName {
                 key: Lamp { yaw: 32.0, pitch: 32.0, color: [1.0, 0.985, 0.965], intensity: 1.0 },
                 ambient: [[0.14, 0.14, 0.15], [0.13, 0.12, 0.12]],
                 rim: None,
-                bloom: true,
                 backdrop: backdrop(
                     ["#b7c6da", "#d9dde6", "#f3e4da"],
                     ("#8c8a88", [0.5, 0.4], 0.6),
@@ -109,7 +102,6 @@ impl PresetName {
             },
             Self::Turnaround => Preset {
                 size: [1920, 1080],
-                stance: Stance::Relaxed,
                 expressions: &[],
                 wind: None,
                 looks_at_camera: false,
@@ -118,7 +110,6 @@ impl PresetName {
                 key: Lamp { yaw: -18.0, pitch: 46.0, color: [1.0, 0.99, 0.98], intensity: 1.0 },
                 ambient: [[0.13, 0.13, 0.14], [0.11, 0.11, 0.12]],
                 rim: None,
-                bloom: true,
                 backdrop: backdrop(
                     ["#dfe5ee", "#eceef3", "#cfd5e0"],
                     ("#808080", [0.5, 0.45], 0.9),
@@ -127,7 +118,6 @@ impl PresetName {
             },
             Self::Night => Preset {
                 size: [1080, 1350],
-                stance: Stance::Relaxed,
                 expressions: &[("relaxed", 0.2)],
                 wind: Some([-0.1, 0.02, 0.05]),
                 looks_at_camera: true,
@@ -136,7 +126,6 @@ impl PresetName {
                 key: Lamp { yaw: 14.0, pitch: 36.0, color: [0.68, 0.76, 1.0], intensity: 0.9 },
                 ambient: [[0.05, 0.06, 0.14], [0.05, 0.045, 0.1]],
                 rim: Some(Lamp { yaw: -138.0, pitch: 14.0, color: [1.0, 0.52, 0.22], intensity: 0.9 }),
-                bloom: true,
                 backdrop: backdrop(
                     ["#060a20", "#131c47", "#33275f"],
                     ("#2c4a9c", [0.74, 0.2], 0.55),
@@ -145,7 +134,6 @@ impl PresetName {
             },
             Self::Sunset => Preset {
                 size: [1440, 960],
-                stance: Stance::Relaxed,
                 expressions: &[("relaxed", 0.35)],
                 wind: Some([-0.2, 0.02, 0.0]),
                 looks_at_camera: true,
@@ -154,7 +142,6 @@ impl PresetName {
                 key: Lamp { yaw: 26.0, pitch: 16.0, color: [1.0, 0.76, 0.56], intensity: 1.0 },
                 ambient: [[0.16, 0.11, 0.2], [0.16, 0.09, 0.1]],
                 rim: Some(Lamp { yaw: 140.0, pitch: 10.0, color: [1.0, 0.6, 0.25], intensity: 1.1 }),
-                bloom: true,
                 backdrop: backdrop(
                     ["#4a3a8c", "#e4738c", "#ffb862"],
                     ("#ffd78a", [0.76, 0.66], 0.75),
@@ -226,10 +213,8 @@ impl Preset {
                 spot: None,
             });
         }
-        if self.bloom {
-            let post = stage.post.unwrap_or_default();
-            stage.post = Some(Post { bloom: Some(post.bloom.unwrap_or_default()), ..post });
-        }
+        let post = stage.post.unwrap_or_default();
+        stage.post = Some(Post { bloom: Some(post.bloom.unwrap_or_default()), ..post });
         if self.ground && stage.ground.is_none() {
             stage.ground = Some(Ground { shadow_only: true, ..Ground::default() });
         }
