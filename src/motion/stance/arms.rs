@@ -13,8 +13,8 @@ const CELLS: usize = 64;
 /// Steps in which an arm is lifted, degrees, and the most of them.
 const STEP_DEG: f32 = 1.5;
 const STEPS: usize = 28;
-/// Share of vertices of an arm that count for its thickness; the rest are tips of cuffs and folds.
-const COUNTED: f32 = 0.85;
+/// Share of vertices of an arm within its thickness; the rest are cuffs and folds.
+const COUNTED: f32 = 0.5;
 
 /// Lifts both arms of a pose off the body.
 pub(super) fn clear(rig: &Rig<'_>, pose: &mut Pose) {

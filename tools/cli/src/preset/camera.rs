@@ -12,7 +12,7 @@ const ABOVE: f32 = 0.04;
 /// Where the knees of a stout figure are, below the middle of its picture, share of half its height.
 const KNEES: f32 = 0.72;
 /// Distance between the figures of a row, and their height, as shares of the height of the tallest.
-const APART: f32 = 0.56;
+const APART: f32 = 0.85;
 const ROW: f32 = 1.16;
 /// Field of view of a row, degrees: narrow, so that those at its ends are not seen from the side.
 const ROW_FOV: f32 = 10.0;
