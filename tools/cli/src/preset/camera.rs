@@ -1,6 +1,7 @@
 //! The camera of a composition, by the measures of the models.
 
 use glam::{Mat4, Quat, Vec3};
+use hikage::motion::{Pose, Stance};
 use hikage::scene::{Camera, Framing};
 use hikage::{Actor, Stage, View};
 
@@ -47,28 +48,41 @@ fn room(actors: &[Actor]) -> [f32; 2] {
 /// The view of a composition; options of the command line take the place of its framing and yaw.
 pub(super) fn view(shot: &Shot, stage: &Stage, view: Option<ViewName>, yaw: Option<f32>, size: [u32; 2]) -> View {
     let yaw_rad = yaw.unwrap_or(shot.yaw).to_radians();
-    let framing = view.unwrap_or(shot.view).into();
+    let people = stage.actors.iter().all(is_humanoid);
+    let framing = match view {
+        None if !people => Framing::Full,
+        _ => view.unwrap_or(shot.view).into(),
+    };
     let mut seen = View::framed_stage(stage, framing, yaw_rad, size);
-    if view.is_none() && shot.row.is_empty() {
+    // Several must all fit, and so must what has no face.
+    let is_portrait = people && stage.actors.len() == 1;
+    if view.is_none() && shot.row.is_empty() && is_portrait {
         zoomed(shot, stage, &mut seen, framing, yaw_rad);
-    } else if view.is_none() {
+    } else if view.is_none() && !shot.row.is_empty() {
         whole_row(stage, &mut seen.camera, yaw_rad, size);
     }
-    tilted(shot, &mut seen.camera, size);
+    let aside = if is_portrait { shot.aside } else { 0.0 };
+    tilted(&Shot { aside, ..*shot }, &mut seen.camera, size);
     seen
+}
+
+/// Whether it stands at ease when it is told to.
+fn is_humanoid(actor: &Actor) -> bool {
+    let scene = actor.character.scene();
+    let (rest, mut pose) = (Pose::rest(scene), Pose::rest(scene));
+    pose.set_stance(scene, Stance::Relaxed);
+    pose != rest
 }
 
 /// Fits the height alone: arms and hats may be cut at the sides. Feet stay out of the picture, which has no ground.
 fn zoomed(shot: &Shot, stage: &Stage, seen: &mut View, framing: Framing, yaw_rad: f32) {
     let half = |camera: &Camera| (camera.fov_y_rad * 0.5).tan() * camera.eye.distance(camera.target);
     let [wide, full] = [framing, Framing::Full].map(|f| View::framed_stage(stage, f, yaw_rad, [4000, 1000]).camera);
-    // Several stand beside each other and must all fit.
-    let of = if stage.actors.len() > 1 { seen.camera } else { wide };
     let top = wide.target.y + half(&wide);
     let knees = full.target.y - half(&full) * KNEES;
-    let half_now = (half(&of) * shot.zoom).min((top - knees) * 0.5 / (1.0 - ABOVE));
-    let target = of.target.with_y(top + half_now * (2.0 * ABOVE - 1.0));
-    seen.camera = Camera { target, eye: target + (of.eye - of.target) * (half_now / half(&of)), ..of };
+    let half_now = (half(&wide) * shot.zoom).min((top - knees) * 0.5 / (1.0 - ABOVE));
+    let target = wide.target.with_y(top + half_now * (2.0 * ABOVE - 1.0));
+    seen.camera = Camera { target, eye: target + (wide.eye - wide.target) * (half_now / half(&wide)), ..wide };
 }
 
 /// Fits a row of figures, from farther away.
