@@ -57,6 +57,10 @@ fn outlines(scene: &mut Scene) {
         for outline in scene.materials.iter_mut().filter_map(|m| m.outline.as_mut()).filter(black) {
             outline.tint = Some(OutlineTint::default());
         }
+        // A pen has one width, however near the camera comes.
+        for outline in scene.materials.iter_mut().filter_map(|m| m.outline.as_mut()) {
+            outline.clamp_px.get_or_insert([0.0, 4.0]);
+        }
         return;
     }
     let drawn: BTreeSet<usize> =

@@ -74,7 +74,7 @@ fn places_of(scene: &Scene, locals: &[Transform], root: &Place) -> Vec<Place> {
 }
 
 /// What turns a skeleton to +Z: its left leg tells its left. Files that say which bones they have face it by their own rules.
-fn facing(scene: &Scene, bones: &BTreeMap<HumanBone, usize>) -> Quat {
+pub(crate) fn facing(scene: &Scene, bones: &BTreeMap<HumanBone, usize>) -> Quat {
     let known = scene.animation_rig.is_some() || scene.character.as_ref().is_some_and(|c| !c.bones.is_empty());
     let leg = |bone| bones.get(&bone).copied();
     let (Some(left), Some(right), false) = (leg(HumanBone::LeftUpperLeg), leg(HumanBone::RightUpperLeg), known) else {

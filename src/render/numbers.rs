@@ -8,6 +8,7 @@ use super::pass::bangs_shadow::{BangsFit, BangsTile};
 use super::pass::shadow::ShadowRows;
 use super::{Background, View};
 use crate::Stage;
+use crate::color::Srgb;
 use crate::scene::{DepthRange, EyesThrough, MAX_PUNCTUAL_LIGHTS, Post, PunctualLight, ToneCurve};
 
 /// `Frame` of `wgsl/bind/frame.wgsl`.
@@ -180,21 +181,40 @@ pub(crate) fn put_actor(gpu: &mut Block<'_>, of: &ActorState<'_>) {
 
 /// Writes the numbers of a finished picture.
 pub(crate) fn put_post(gpu: &mut Block<'_>, post: Post, background: Background) {
-    let background = match background {
+    let color = match background {
         // The environment is in the picture already.
         Background::Transparent | Background::Environment => [0.0; 4],
         Background::Color(srgb) => {
             let [r, g, b] = srgb.to_linear().0;
             [r, g, b, 1.0]
         }
+        Background::Backdrop(_) => [0.0, 0.0, 0.0, 1.0],
     };
     let tone = match post.tone {
         ToneCurve::None => 0u32,
         ToneCurve::Filmic => 1,
         ToneCurve::Neutral => 2,
     };
-    gpu.put("background", background);
+    gpu.put("background", color);
     gpu.put("bloom", post.bloom.map_or(0.0, |b| b.strength));
     gpu.put("exposure", post.exposure_ev.exp2());
     gpu.put("tone", tone);
+    let backdrop = match background {
+        Background::Backdrop(backdrop) => Some(backdrop),
+        _ => None,
+    };
+    let of = backdrop.unwrap_or_default();
+    // Mixed as they are seen, not as light.
+    let seen = |srgb: Srgb| srgb.0.map(|c| f32::from(c) / 255.0);
+    gpu.put("backdrop_top", seen(of.top));
+    gpu.put("backdrop_middle", seen(of.middle));
+    gpu.put("backdrop_bottom", seen(of.bottom));
+    gpu.put("backdrop_lit", seen(of.glow));
+    gpu.put("backdrop_glow", of.glow_at);
+    gpu.put("backdrop_glow_radius", of.glow_radius);
+    gpu.put("backdrop_discs", seen(of.discs));
+    gpu.put("backdrop_disc_count", of.disc_count.min(64));
+    gpu.put("backdrop_disc_radius", of.disc_radius);
+    gpu.put("backdrop_seed", of.seed);
+    gpu.put("has_backdrop", u32::from(backdrop.is_some()));
 }

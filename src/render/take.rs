@@ -2,7 +2,7 @@
 
 use super::pass::floor::FloorPass;
 use super::pass::{Picture, Sight};
-use super::{Output, Renderer, Target, View};
+use super::{Background, Output, Renderer, Target, View};
 use crate::Stage;
 use crate::scene::{Antialias, Post, ToneCurve};
 
@@ -33,7 +33,7 @@ pub(super) struct Take<'a> {
 
 impl<'a> Take<'a> {
     pub fn new(r: &Renderer, stage: &Stage, view: &'a View, target: &'a Target<'a>, shown: Shown<'a>) -> Self {
-        let post = shown.post(stage, target, r.output);
+        let post = shown.post(stage, view, target, r.output);
         let picture = Picture::new(r.gpu(), r.output, shown.sight(stage, post));
         Self { view, target, shown, post, picture }
     }
@@ -51,12 +51,13 @@ impl<'a> Shown<'a> {
         Sight { channel, punctual, environment, hdr: post.is_some() }
     }
 
-    /// What is done to the whole of it: what is laid over something goes the same way.
-    fn post(self, stage: &Stage, target: &Target<'_>, output: Output) -> Option<Post> {
+    /// What is done to the whole of it: what is laid over something, a backdrop too, goes the same way.
+    fn post(self, stage: &Stage, view: &View, target: &Target<'_>, output: Output) -> Option<Post> {
         let post = stage.post.filter(|_| self.is_finished());
         let post = post.map(|p| Post { antialias: self.antialias(p.antialias), ..p });
         let plain = Post { bloom: None, exposure_ev: 0.0, tone: ToneCurve::None, antialias: Antialias::None };
-        post.or_else(|| target.is_laid_over(output).then_some(plain))
+        let is_painted = self.is_finished() && matches!(view.background, Background::Backdrop(_));
+        post.or_else(|| (is_painted || target.is_laid_over(output)).then_some(plain))
     }
 
     /// Whether it is a picture as a whole.

@@ -8,7 +8,7 @@ use crate::{
     color::Srgb,
     material::About,
     motion::Pose,
-    scene::{Camera, DepthRange, Framing, HumanBone, Image, Scene},
+    scene::{Backdrop, Camera, DepthRange, Framing, HumanBone, Image, Scene},
     stage::Stage,
 };
 
@@ -58,13 +58,15 @@ impl Default for View {
 }
 
 /// What is behind the actors.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Background {
     /// Nothing: the picture has alpha.
     #[default]
     Transparent,
     /// A colour.
     Color(Srgb),
+    /// A painted one. It keeps its colours, whatever exposure and tone curve do.
+    Backdrop(Backdrop),
     /// The stage's environment ([`Lights::environment`](crate::scene::Lights::environment)), as bright as it lights; exposure
     /// and tone curve change it with the actors. Nothing where the stage has none.
     Environment,

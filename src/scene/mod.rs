@@ -3,6 +3,7 @@
 //! Conventions: right-handed, +Y up, metres, radians; a character faces +Z. Quaternions are `(x, y, z, w)`.
 
 mod animation;
+mod backdrop;
 mod bangs;
 mod camera;
 mod character;
@@ -21,6 +22,7 @@ mod self_shadow;
 mod texture;
 
 pub use animation::{Animation, AnimationChannel, AnimationRig, AnimationValues, Interpolation};
+pub use backdrop::Backdrop;
 pub use bangs::Bangs;
 pub(crate) use camera::DepthRange;
 pub use camera::{Camera, Framing};

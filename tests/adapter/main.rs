@@ -8,6 +8,7 @@ mod eyeballs;
 
 mod adapters;
 mod automatic;
+mod backdrop;
 mod bangs_shadow;
 mod body_looks;
 mod channels;

@@ -1,5 +1,6 @@
 // The finished picture: bloom, tone curve, background, and smooth edges where there is one sample a pixel.
 import package::bind::picture::{PictureVarying, picture_varying};
+import package::lib::backdrop::{backdrop_discs, backdrop_dither, backdrop_gradient, linear_from_seen, screened};
 import package::lib::color::srgb_from_linear;
 import package::lib::tone::toned;
 
@@ -10,6 +11,20 @@ struct PostNumbers {
     // What light is multiplied by.
     exposure: f32,
     tone: u32,
+    has_backdrop: u32,
+    // sRGB-encoded.
+    backdrop_top: vec3f,
+    backdrop_middle: vec3f,
+    backdrop_bottom: vec3f,
+    backdrop_lit: vec3f,
+    backdrop_discs: vec3f,
+    // From the top left, share of the picture.
+    backdrop_glow: vec2f,
+    // Shares of the height.
+    backdrop_glow_radius: f32,
+    backdrop_disc_radius: f32,
+    backdrop_disc_count: u32,
+    backdrop_seed: u32,
 }
 
 @group(0) @binding(0) var<uniform> post: PostNumbers;
@@ -22,6 +37,23 @@ fn vs_main(@builtin(vertex_index) vertex: u32) -> PictureVarying {
     return picture_varying(vertex);
 }
 
+// What is behind everything, straight.
+fn behind_all(uv: vec2f) -> vec4f {
+    if post.has_backdrop == 0u {
+        return post.background;
+    }
+    let size = vec2f(textureDimensions(picture));
+    let wide = vec2f(size.x / size.y, 1.0);
+    var color = backdrop_gradient(post.backdrop_top, post.backdrop_middle, post.backdrop_bottom, uv.y);
+    let away = distance(uv * wide, post.backdrop_glow * wide) / max(post.backdrop_glow_radius, 1e-4);
+    let near = 1.0 - smoothstep(0.0, 1.0, away);
+    color = screened(color, post.backdrop_lit * near * near);
+    let discs = backdrop_discs(
+        uv * wide, wide.x, post.backdrop_discs, post.backdrop_disc_count, post.backdrop_disc_radius, post.backdrop_seed);
+    color = screened(color, saturate(discs)) + backdrop_dither(vec2i(uv * size));
+    return vec4f(linear_from_seen(color), 1.0);
+}
+
 // Premultiplied colour of a place, toned.
 fn finished(uv: vec2f) -> vec4f {
     var drawn = textureSampleLevel(picture, post_sampler, uv, 0.0);
@@ -31,8 +63,9 @@ fn finished(uv: vec2f) -> vec4f {
     let alpha = 1.0 - (1.0 - drawn.a) * (1.0 - saturate(max(light.r, max(light.g, light.b))));
     let straight = (drawn.rgb + light) / max(alpha, 1e-4);
     let color = saturate(toned(straight, post.tone)) * alpha;
-    let behind = post.background * (1.0 - alpha);
-    return vec4f(color + behind.rgb * post.background.a, alpha + behind.a);
+    let background = behind_all(uv);
+    let behind = background * (1.0 - alpha);
+    return vec4f(color + behind.rgb * background.a, alpha + behind.a);
 }
 
 fn luma(c: vec4f) -> f32 {

@@ -16,7 +16,7 @@ use crate::failure::{Failure, warn};
 const SHOWN_NAMES: usize = 6;
 
 /// Options of movement.
-#[derive(clap::Args)]
+#[derive(Clone, clap::Args)]
 pub(crate) struct MotionArgs {
     /// Clip to play: FILE is a .vrma, .glb or .vrm, or idle, walk, run, wave or turn, which every humanoid can play. NAME is
     /// that of one of its animations, or its number from 0; #NAME alone is one of the model. Several share by their weights.

@@ -18,6 +18,7 @@ mod motion;
 mod output;
 mod placed;
 mod pose;
+mod preset;
 mod profile;
 mod reference;
 mod render;

@@ -15,6 +15,7 @@ use crate::clips::{LookAt, MotionArgs, Sources};
 use crate::failure::Failure;
 use crate::motion::{Motion, Moving};
 use crate::placed::{Placed, placed};
+use crate::preset::{Preset, PresetName};
 use crate::shot::Shot;
 use crate::spinner::Spinner;
 use crate::{deadline, output, setup};
@@ -24,6 +25,7 @@ use crate::{deadline, output, setup};
 #[command(after_help = "\
 Examples:
   hikage render -o heroine.png
+  hikage render girl.vrm -o cover.png --preset cover
   hikage render girl.vrm -o girl.png --view bust --yaw 25 --pose relaxed
   hikage render girl.vrm -o icon.png --size 256x256 --background none --expression happy,blink=0.3
   hikage render girl.vrm -o again.png --shot shot.json
@@ -45,6 +47,10 @@ pub(crate) struct Args {
     /// Picture to write; its folder must exist.
     #[arg(short, long, value_name = "OUT.png", value_parser = png_path)]
     output: PathBuf,
+    /// Composition: camera, light, backdrop and pose; and the anime look for models that bring none. Options given here win
+    /// over it.
+    #[arg(long, value_enum, value_name = "NAME")]
+    preset: Option<PresetName>,
     /// Size, pixels [default: 1024x1024].
     #[arg(long, value_name = "WxH", value_parser = args::size)]
     size: Option<[u32; 2]>,
@@ -82,7 +88,8 @@ pub(crate) struct Args {
     /// Expressions and their weights, 0 to 1.
     #[arg(long, value_name = "NAME=W,...", value_delimiter = ',', value_parser = args::expression)]
     expression: Vec<(String, f32)>,
-    /// Pose of the humanoid, which clips go over [default: rest; relaxed for the built-in character and with clips].
+    /// Pose of the humanoid, which clips go over [default: rest; relaxed for the built-in character, with clips
+    /// and with a preset].
     #[arg(long, value_name = "rest|relaxed|bend|offer", value_parser = args::stance)]
     pose: Option<Stance>,
     #[arg(long, value_name = "plain|anime|natural|FILE.look.toml", value_parser = args::look, help = args::LOOK_HELP)]
@@ -166,6 +173,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         setup::check_writable(path)?;
     }
     let shot = args.shot.as_deref().map(Shot::read).transpose()?.unwrap_or_default();
+    let preset = args.preset.map(PresetName::preset);
 
     let spinner = Spinner::new();
     spinner.step("loading the model");
@@ -182,9 +190,15 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         scenes.push(scene);
     }
     for (model, scene) in models.iter().zip(&mut scenes) {
-        setup::apply_look(args.look.as_ref(), model.path.as_deref(), scene)?;
+        let other = if preset.is_some() {
+            LookName::Anime
+        } else {
+            LookName::Plain
+        };
+        setup::apply_look_or(args.look.as_ref(), other, model.path.as_deref(), scene)?;
     }
-    let mut motions = motions(args, models, &scenes)?;
+    let moved = moved(args, preset.as_ref());
+    let mut motions = motions(args, preset.as_ref(), &moved, models, &scenes)?;
 
     spinner.step("opening the adapter");
     let gpu = timed(&mut ms.adapter, || setup::gpu(args.adapter.as_deref()))?;
@@ -192,15 +206,20 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let output = Output { samples: args.samples, ..Output::default() };
     let renderer = timed(&mut ms.pipelines, || Renderer::with_output(&gpu, output))?;
     spinner.step("uploading");
-    let mut actors = Vec::with_capacity(models.len());
+    let figures = preset.as_ref().map_or(1, Preset::figures);
+    let mut actors = Vec::with_capacity(models.len() * figures);
     for (scene, posed) in scenes.iter_mut().zip(&motions) {
         let character = timed(&mut ms.upload, || renderer.upload_and_empty_images(scene))?;
-        actors.push(posed.put(Actor::new(&character), args.time));
+        actors.extend((0..figures).map(|_| posed.put(Actor::new(&character), args.time)));
+    }
+    if let Some(preset) = &preset {
+        preset.place(&mut actors);
     }
     let mut stage = Stage::of(actors);
     stage.ground.clone_from(&args.ground);
-    let view = seen(args, &shot, &mut stage)?;
-    if args.motion.look_at == Some(LookAt::Camera) {
+    let view = seen(args, preset.as_ref(), &shot, &mut stage)?;
+    // The figures of a row each look ahead.
+    if moved.look_at == Some(LookAt::Camera) && figures == 1 {
         look_at_camera(&mut motions, args.time, &mut stage, &view);
     }
     spinner.step("drawing");
@@ -259,21 +278,41 @@ impl Posed {
     }
 }
 
+/// How models move: as a preset says where the options do not.
+fn moved(args: &Args, preset: Option<&Preset>) -> MotionArgs {
+    let mut moved = args.motion.clone();
+    if let Some(preset) = preset {
+        moved.wind = moved.wind.or(preset.wind);
+        moved.look_at = moved.look_at.or(preset.looks_at_camera.then_some(LookAt::Camera));
+    }
+    moved
+}
+
 /// Poses of all models. Of several, each shows the expressions that it has.
-fn motions(args: &Args, models: &[Placed], scenes: &[Scene]) -> Result<Vec<Posed>, Failure> {
+fn motions(
+    args: &Args,
+    preset: Option<&Preset>,
+    moved: &MotionArgs,
+    models: &[Placed],
+    scenes: &[Scene],
+) -> Result<Vec<Posed>, Failure> {
     let has = |scene: &Scene, name: &str| scene.character.iter().flat_map(|c| &c.expressions).any(|e| e.name == name);
     let somebody_has = |name: &str| scenes.iter().any(|scene| has(scene, name));
     let sources = Sources::load(&args.motion.clip)?;
     let posed = |(model, scene): (&Placed, &Scene)| {
-        let is_at_ease = model.path.is_none() || !args.motion.clip.is_empty();
+        let is_at_ease = model.path.is_none() || !args.motion.clip.is_empty() || preset.is_some();
         let stance = args.pose.unwrap_or(if is_at_ease { Stance::Relaxed } else { Stance::Rest });
-        let expressions: Vec<(String, f32)> =
+        let mut expressions: Vec<(String, f32)> =
             args.expression.iter().filter(|(name, _)| has(scene, name) || !somebody_has(name)).cloned().collect();
-        if !args.motion.is_some() {
+        if args.expression.is_empty() {
+            let of_preset = preset.iter().flat_map(|p| p.expressions).filter(|(name, _)| has(scene, name));
+            expressions.extend(of_preset.map(|(name, weight)| ((*name).to_owned(), *weight)));
+        }
+        if !moved.is_some() {
             return Ok(Posed::Still(model.world(), Box::new(setup::pose(scene, stance, &expressions)?)));
         }
         let base = setup::pose(scene, stance, &[])?;
-        let mut motion = Motion::new(scene, &args.motion, &sources, base, model.world())?;
+        let mut motion = Motion::new(scene, moved, &sources, base, model.world())?;
         motion.express(&expressions)?;
         Ok(Posed::Moved(Box::new(motion)))
     };
@@ -290,13 +329,18 @@ fn look_at_camera(motions: &mut [Posed], time_s: f32, stage: &mut Stage, view: &
     }
 }
 
-/// What is drawn: the framing, then the shot, then the options of the command line.
-fn seen(args: &Args, shot: &Shot, stage: &mut Stage) -> Result<View, Failure> {
-    let size = args.size.or(shot.size).unwrap_or([1024, 1024]);
-    let framing = args.view.unwrap_or(ViewName::Portrait).into();
-    let framed = View::framed_stage(stage, framing, args.yaw.unwrap_or(0.0).to_radians(), size);
+/// What is drawn: the framing or the preset, then the shot, then the options of the command line.
+fn seen(args: &Args, preset: Option<&Preset>, shot: &Shot, stage: &mut Stage) -> Result<View, Failure> {
+    let size = args.size.or(shot.size).unwrap_or(preset.map_or([1024, 1024], |p| p.size));
+    let framed = match preset {
+        Some(preset) => preset.view(stage, args.view, args.yaw, size),
+        None => {
+            let framing = args.view.unwrap_or(ViewName::Portrait).into();
+            let view = View::framed_stage(stage, framing, args.yaw.unwrap_or(0.0).to_radians(), size);
+            View { background: Background::Color(hikage::color::Srgb([0x80; 3])), ..view }
+        }
+    };
     let mut view = framed.clone();
-    view.background = Background::Color(hikage::color::Srgb([0x80; 3]));
     let lights = &mut stage.lights;
     shot.apply(&mut view, lights).map_err(|what| {
         let file = args.shot.as_deref().unwrap_or(Path::new(""));
@@ -340,6 +384,7 @@ fn options_report<'a>(args: &'a Args, view: &View, stage: &Stage) -> OptionsRepo
         time_s: stage.time_s,
         background: match &view.background {
             Background::Environment => "environment".to_owned(),
+            Background::Backdrop(_) => "backdrop".to_owned(),
             Background::Color(hikage::color::Srgb([r, g, b])) => format!("#{r:02x}{g:02x}{b:02x}"),
             _ => "none".into(),
         },

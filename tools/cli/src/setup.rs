@@ -60,8 +60,18 @@ pub(crate) const BUILT_IN: &str = "hikage.vrm";
 
 /// Gives a model its look: the named one, else the one that it brings.
 pub(crate) fn apply_look(name: Option<&LookName>, model: Option<&Path>, scene: &mut Scene) -> Result<(), Failure> {
+    apply_look_or(name, LookName::Plain, model, scene)
+}
+
+/// The same, where a model that brings none gets `other`.
+pub(crate) fn apply_look_or(
+    name: Option<&LookName>,
+    other: LookName,
+    model: Option<&Path>,
+    scene: &mut Scene,
+) -> Result<(), Failure> {
     let before = scene.warnings.len();
-    match name.cloned().unwrap_or_else(|| own_look(model)) {
+    match name.cloned().or_else(|| own_look(model)).unwrap_or(other) {
         LookName::Plain => {}
         LookName::Natural => Look::Natural.apply(scene),
         LookName::Anime => Look::Anime(Anime { face: painted(model)?, ..Anime::default() }).apply(scene),
@@ -82,14 +92,9 @@ pub(crate) fn environment(name: &EnvironmentName) -> Result<Option<Environment>,
 }
 
 /// The look that a model brings: that of the built-in character, or the look file beside a file.
-fn own_look(model: Option<&Path>) -> LookName {
-    let Some(model) = model else { return LookName::Anime };
-    let file = LookFile::beside(model);
-    if file.is_file() {
-        LookName::File(file)
-    } else {
-        LookName::Plain
-    }
+fn own_look(model: Option<&Path>) -> Option<LookName> {
+    let Some(model) = model else { return Some(LookName::Anime) };
+    Some(LookFile::beside(model)).filter(|file| file.is_file()).map(LookName::File)
 }
 
 /// Thresholds of the face of the built-in character, which has painted keys.

@@ -69,8 +69,8 @@ fn section(width: f32, strip: usize) -> (Vec<Corner>, Vec<Corner>) {
     let inner = vec![[1.0, 0.0], [0.0, -0.3], [-1.0, 0.0]];
     match width {
         w if strip == INNER || strip == THIN && w > 0.006 => ([arc(5), vec![[0.0, -0.4]]].concat(), Vec::new()),
-        w if w > 0.0135 => (arc(9), inner),
-        w if w > 0.0065 => (arc(7), inner),
+        w if w > 0.0135 => (arc(8), inner),
+        w if w > 0.0065 => (arc(6), inner),
         _ => (vec![[-1.0, 0.0], [0.0, 1.0], [1.0, 0.0], [0.0, -0.5]], Vec::new()),
     }
 }

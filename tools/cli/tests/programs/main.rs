@@ -7,4 +7,6 @@ mod animate;
 mod cli;
 mod determinism;
 mod motion;
+mod preset;
 mod sdf;
+mod stance;
