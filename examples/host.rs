@@ -7,7 +7,8 @@ use hikage::motion::{Pose, Stance};
 use hikage::scene::HumanBone;
 use hikage::wgpu;
 use hikage::{
-    Anime,    Actor, Error, Far, Gpu, HostDepth, Look, Output, Renderer, Stage, Target, View, import, picture, scene::Framing,
+    Actor, Anime, Error, Far, Gpu, HostDepth, Look, Output, Renderer, Stage, Target, View, import, picture,
+    scene::Framing,
 };
 
 const SIZE: [u32; 2] = [960, 540];

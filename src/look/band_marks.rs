@@ -101,7 +101,11 @@ pub(super) fn paint(style: BandStyle) -> Image {
                 None => ring(style, (x as f32 + 0.5) / (RING_CELLS * CELL) as f32, y),
                 Some(cell) => {
                     let (level, variant) = (cell / VARIANTS + 1, cell % VARIANTS);
-                    let points = if variant < VARIANTS / 2 { 1 + variant % 2 } else { 3 + variant % 2 };
+                    let points = if variant < VARIANTS / 2 {
+                        1 + variant % 2
+                    } else {
+                        3 + variant % 2
+                    };
                     // A tenth of the cell on both sides stays empty: the lock's border.
                     level as f32 / LEVELS as f32 * mark(style, variant, points, (t - 0.13) / 0.74, y)
                 }
@@ -109,5 +113,12 @@ pub(super) fn paint(style: BandStyle) -> Image {
             texel[0] = (share.clamp(0.0, 1.0) * 255.0).round() as u8;
         }
     });
-    Image { name: "hair band".to_owned(), width: width as u32, height: HEIGHT as u32, pixels, source_bits: 8, ..Image::default() }
+    Image {
+        name: "hair band".to_owned(),
+        width: width as u32,
+        height: HEIGHT as u32,
+        pixels,
+        source_bits: 8,
+        ..Image::default()
+    }
 }

@@ -6,9 +6,9 @@ use std::f32::consts::PI;
 
 use glam::{Mat4, Vec3};
 
+use super::BandStyle;
 use super::band_marks::{CELLS, LEVELS, RING_CELLS, VARIANTS, paint};
 use super::tone::Tone;
-use super::BandStyle;
 use crate::material::{Highlight, TextureRef};
 use crate::scene::painted::Painted;
 use crate::scene::{Filter, Primitive, Sampler, Scene, Texture, Wrap};
@@ -110,11 +110,8 @@ fn light(scene: &Scene, material: usize) -> Light {
     let is_painted = spread > 0.12;
     let dark = smooth(0.42, 0.22, hair.lightness);
     let pale = smooth(0.78, 0.95, hair.lightness);
-    let colored = Tone {
-        lightness: (hair.lightness + 0.17).min(0.985),
-        chroma: hair.chroma * 0.72,
-        ..hair.towards(1.6, 0.12)
-    };
+    let colored =
+        Tone { lightness: (hair.lightness + 0.17).min(0.985), chroma: hair.chroma * 0.72, ..hair.towards(1.6, 0.12) };
     let sheen = Tone { lightness: hair.lightness + 0.17, chroma: 0.045, hue_rad: -1.5 };
     let mix = |a: [f32; 3], b: [f32; 3], t: f32| std::array::from_fn(|c| a[c] + (b[c] - a[c]) * t);
     let color = mix(colored.to_linear(), sheen.to_linear(), dark);
@@ -124,7 +121,11 @@ fn light(scene: &Scene, material: usize) -> Light {
 
 /// Adds the coordinates as the second set. Gives the materials that have them.
 fn wrap(
-    scene: &mut Scene, materials: &BTreeSet<usize>, middle: Vec3, height: f32, style: BandStyle,
+    scene: &mut Scene,
+    materials: &BTreeSet<usize>,
+    middle: Vec3,
+    height: f32,
+    style: BandStyle,
 ) -> BTreeSet<usize> {
     let mut done = BTreeSet::new();
     scene.for_each_hair(|part, matrix| {

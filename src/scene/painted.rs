@@ -1,8 +1,8 @@
 //! What a file paints: the lit colour of a material at any place of its textures.
 
+use super::{Image, Primitive, Scene};
 use crate::color::linear_from_srgb;
 use crate::material::{Material, UvTransform};
-use super::{Image, Primitive, Scene};
 
 /// Most triangles of a part whose colours are read.
 const MOST_READ: usize = 4096;

@@ -28,7 +28,11 @@ impl<const N: usize> Raster<N> {
 
     /// Writes a triangle, with its values between those of its corners, where `wins` prefers the new value over the one that is
     /// there. `None` once triangles have covered the picture so often that nobody can have meant it.
-    pub(super) fn triangle(&mut self, [a, b, c]: [Corner<N>; 3], mut wins: impl FnMut(&[f32; N], &[f32; N]) -> bool) -> Option<()> {
+    pub(super) fn triangle(
+        &mut self,
+        [a, b, c]: [Corner<N>; 3],
+        mut wins: impl FnMut(&[f32; N], &[f32; N]) -> bool,
+    ) -> Option<()> {
         let side = self.side as f32;
         let [p, q, r] = [a, b, c].map(|corner| corner.uv * side - 0.5);
         let bound = |x: f32| x.clamp(0.0, side - 1.0) as usize;

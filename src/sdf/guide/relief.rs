@@ -76,9 +76,7 @@ impl Relief {
         let value = |i: usize| raster.texels[i].unwrap_or([depth, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0]);
         // Both sides are one, so that light from both shows the same face.
         let even = |pick: &dyn Fn([f32; 7]) -> f32| -> Field {
-            (0..SIDE * SIDE)
-                .map(|i| 0.5 * (pick(value(i)) + pick(value(i - i % SIDE + SIDE - 1 - i % SIDE))))
-                .collect()
+            (0..SIDE * SIDE).map(|i| 0.5 * (pick(value(i)) + pick(value(i - i % SIDE + SIDE - 1 - i % SIDE)))).collect()
         };
         let luminance = |v: [f32; 7]| {
             let [r, g, b, _] = paint.at([v[2], v[3]]);

@@ -38,7 +38,9 @@ impl Thresholds {
                 let place = Vec2::new(across, 1.0 - (y as f32 + 0.5) / SIDE as f32);
                 // The line between light and shade runs round what stands out.
                 let round = landmarks.map_or(0.0, |l| {
-                    (over * 1000.0).clamp(-12.0, 22.0) * (1.0 - near_eye(l, place)) * fade(40.0, 15.0, angle.to_degrees().abs())
+                    (over * 1000.0).clamp(-12.0, 22.0)
+                        * (1.0 - near_eye(l, place))
+                        * fade(40.0, 15.0, angle.to_degrees().abs())
                 });
                 let mut dark_at = 90.0 + turned.to_degrees() + round;
                 if let Some(landmarks) = landmarks {
@@ -102,7 +104,8 @@ fn fade(from: f32, to: f32, x: f32) -> f32 {
 
 /// 1 on the eyes and their lids, which stay clean.
 fn near_eye(l: &Landmarks, place: Vec2) -> f32 {
-    let out = Vec2::new(place.x.abs() - l.eye[0], place.y - l.eye[1]) / (Vec2::from(l.eye_half) * 1.35).max(Vec2::splat(1e-4));
+    let out = Vec2::new(place.x.abs() - l.eye[0], place.y - l.eye[1])
+        / (Vec2::from(l.eye_half) * 1.35).max(Vec2::splat(1e-4));
     fade(1.2, 0.8, out.length())
 }
 

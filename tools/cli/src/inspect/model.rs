@@ -206,7 +206,9 @@ fn faces(scene: &Scene) -> BTreeMap<&str, Landmarks> {
         parts.any(|p| p.role == Role::Face && p.material == index)
     };
     let materials = scene.materials.iter().enumerate().filter(|(index, _)| of_face(*index));
-    materials.filter_map(|(index, m)| Some((m.name.as_str(), *Guide::new(scene, index, FaceStyle::default())?.landmarks()?))).collect()
+    materials
+        .filter_map(|(index, m)| Some((m.name.as_str(), *Guide::new(scene, index, FaceStyle::default())?.landmarks()?)))
+        .collect()
 }
 
 fn meshes(scene: &Scene) -> Vec<MeshSummary<'_>> {

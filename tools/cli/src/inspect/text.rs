@@ -93,7 +93,11 @@ fn head(summary: &Summary<'_>) -> String {
 fn face(found: &Landmarks) -> String {
     let cm = |share: f32| share * found.height_m * 100.0;
     let paint = |is_painted: bool| if is_painted { "painted" } else { "of the mesh" };
-    let mouth = if found.mouth_is_bare() { "a crease of the mesh" } else { paint(found.mouth_is_painted) };
+    let mouth = if found.mouth_is_bare() {
+        "a crease of the mesh"
+    } else {
+        paint(found.mouth_is_painted)
+    };
     format!(
         "{:.1} cm high; eyes at {:.1} cm, {:.1} cm from the middle; nose at {:.1} cm, {:.1} mm out, {}; mouth at {:.1} cm, {:.1} cm \
          wide, {mouth}; chin at {:.1} cm",

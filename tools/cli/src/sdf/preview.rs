@@ -7,7 +7,7 @@ use hikage::picture::{encode_png, write_atomic};
 use hikage::render::Output;
 use hikage::scene::{Framing, Image, Scene};
 use hikage::sdf::{Mask, Project, ProjectKey, Sides};
-use hikage::{Background, Gpu, Anime, Look, Renderer, View, motion::Stance};
+use hikage::{Anime, Background, Gpu, Look, Renderer, View, motion::Stance};
 
 use crate::animation::{Animation, Kind};
 use crate::failure::{Failure, warn};

@@ -11,7 +11,7 @@ use hikage::motion::{Pose, Stance};
 use hikage::picture::read_png;
 use hikage::scene::{Framing, HumanBone, Image, Role, Scene};
 use hikage::sdf::Project;
-use hikage::{Actor, Background, Channel, Gpu, Anime, Look, Output, Renderer, Stage, View, color::Srgb};
+use hikage::{Actor, Anime, Background, Channel, Gpu, Look, Output, Renderer, Stage, View, color::Srgb};
 use hikage_character::head::sdf;
 
 /// Another driver may round edges and ramps differently, never more. Wider than for spheres: her locks have outlines of a
@@ -136,7 +136,8 @@ impl Studio {
 fn the_anime_look_is_as_before() {
     let project = Project::parse("face.sdf.toml", sdf::SOURCE).expect("her keys");
     let painted = project.bake(false).expect("her keys are nested").into_sides();
-    let mut studio = Studio::open_with(|scene| Look::Anime(Anime { face: Some(painted), ..Anime::default() }).apply(scene));
+    let mut studio =
+        Studio::open_with(|scene| Look::Anime(Anime { face: Some(painted), ..Anime::default() }).apply(scene));
     for degrees in [-120, -75, -40, 0, 40, 75, 120] {
         studio.light_deg = [degrees as f32, 25.0];
         let name = format!("anime-light-{degrees}");
