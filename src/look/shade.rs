@@ -19,6 +19,8 @@ const FLAT: f32 = 0.9;
 const OF_ONE_HUE: f32 = 0.8;
 /// What white cloth is multiplied by: sRGB (190, 196, 226) over (240, 240, 240).
 const LAVENDER: [f32; 3] = [0.59, 0.63, 0.87];
+/// The same where skin may lie among what is white.
+const ROSY_LAVENDER: [f32; 3] = [0.66, 0.58, 0.76];
 /// Hues in Oklch, radians: of the shade of what is cool, and of what is warm.
 const BLUE: f32 = -1.5;
 const ROSE: f32 = -0.1;
@@ -26,7 +28,11 @@ const ROSE: f32 = -0.1;
 /// Gives a hue to grey shade, and to skin a warm one.
 pub(super) fn apply(scene: &mut Scene) {
     let role = |roles: &[Role]| -> BTreeSet<usize> { roles.iter().flat_map(|r| materials_of(scene, *r)).collect() };
-    let skin = role(&[Role::Face, Role::Skin]);
+    let others = role(&[Role::Hair, Role::HairFront, Role::Cloth, Role::Accessory, Role::Other]);
+    let (of_body, unknown) = (role(&[Role::Face, Role::Skin]), role(&[Role::Other]));
+    // A palette serves a whole character, skin among the rest.
+    let skin: BTreeSet<usize> = of_body.difference(&others).copied().collect();
+    let mixed: BTreeSet<usize> = of_body.intersection(&others).copied().collect();
     let kept = role(&[Role::Eye, Role::EyeWhite, Role::EyeHighlight, Role::Lash, Role::Brow, Role::Mouth]);
     let of_file = skin.iter().find_map(|index| {
         let toon = unprepared_or_not(&scene.materials[*index])?;
@@ -44,9 +50,11 @@ pub(super) fn apply(scene: &mut Scene) {
         let new = match (skin.contains(&index), tone) {
             (true, _) if of_file.is_some() => of_file.unwrap_or_default(),
             (true, Some(Mean { tone, .. })) => over(tone, skin_shade(tone)),
+            _ if mixed.contains(&index) => ROSY_LAVENDER,
             (false, Some(Mean { tone, coherence })) if coherence > OF_ONE_HUE || tone.chroma < 0.03 => {
                 over(tone, cloth_shade(tone))
             }
+            _ if unknown.contains(&index) => ROSY_LAVENDER,
             _ => LAVENDER,
         };
         chosen.insert(index, new);
