@@ -112,7 +112,7 @@ fn light(scene: &Scene, material: usize) -> Light {
     let pale = smooth(0.78, 0.95, hair.lightness);
     let colored =
         Tone { lightness: (hair.lightness + 0.17).min(0.985), chroma: hair.chroma * 0.72, ..hair.towards(1.6, 0.12) };
-    let sheen = Tone { lightness: hair.lightness + 0.17, chroma: 0.045, hue_rad: -1.5 };
+    let sheen = Tone { lightness: (hair.lightness + 0.17).max(0.43), chroma: 0.045, hue_rad: -1.5 };
     let mix = |a: [f32; 3], b: [f32; 3], t: f32| std::array::from_fn(|c| a[c] + (b[c] - a[c]) * t);
     let color = mix(colored.to_linear(), sheen.to_linear(), dark);
     let strength = (0.92 - 0.3 * pale) * if is_painted { 0.3 } else { 1.0 };

@@ -33,12 +33,12 @@ impl Thresholds {
                 let (x, y) = (i % SIDE, i / SIDE);
                 let angle = Relief::angle(x as f32);
                 let turned = azimuth(&head, x, y);
-                let over = (features[i] - head[i]) / relief.height;
+                let raised = (features[i] - head[i]) / relief.height;
                 let across = angle.sin() * sample(&relief.distance, cell_middle(x, y)) / relief.height;
                 let place = Vec2::new(across, 1.0 - (y as f32 + 0.5) / SIDE as f32);
                 // The line between light and shade runs round what stands out.
                 let round = landmarks.map_or(0.0, |l| {
-                    (over * 1000.0).clamp(-12.0, 22.0)
+                    (raised * 1000.0).clamp(-12.0, 22.0)
                         * (1.0 - near_eye(l, place))
                         * fade(40.0, 15.0, angle.to_degrees().abs())
                 });
@@ -50,7 +50,12 @@ impl Thresholds {
                 let behind = fade(77.0, 100.0, turned.to_degrees().abs());
                 // Nothing follows the head there.
                 let under = fade(0.8, 0.6, place.y * (1.0 + MARGIN) / MARGIN);
-                let below = fade(0.98, 0.75, share[i]).max(under);
+                // Hair that is one mesh with the face begins where a forehead ends.
+                let over = landmarks.map_or(0.0, |l| {
+                    let forehead = (place.y - l.eye[1]) / (l.eye[1] - l.chin).max(1e-4);
+                    fade(1.1, 1.35, forehead)
+                });
+                let below = fade(0.98, 0.75, share[i]).max(under).max(over);
                 ((dark_at / 180.0).clamp(0.0, 1.0), behind.max(below))
             })
             .collect();
