@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 use glam::{Vec2, Vec3};
 use hikage::color::LinearRgb;
 use hikage::motion::Pose;
-use hikage::scene::{Camera, Image, Role, Scene};
+use hikage::scene::{Camera, Framing, Image, Role, Scene};
 use hikage::sdf::{FaceStyle, Guide, KEPT, Landmarks};
-use hikage::{Anime, Look, Renderer, import};
+use hikage::{Anime, Channel, Look, Renderer, import};
 
 use crate::support::{self, Shoot, Shot, gpu, staged};
 
@@ -121,6 +121,27 @@ fn a_face_stays_readable_under_every_light() {
         }
     }
     assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+/// A band is one row of marks on the front of the hair, and nothing behind.
+#[test]
+fn a_band_lies_over_the_forehead_and_not_behind() {
+    let path = Path::new("../shared/models/Seed-san_rebuilt.vrm");
+    if !path.exists() {
+        eprintln!("NOT RUN: there is no {}", path.display());
+        return;
+    }
+    let mut scene = import::load(path).expect("a model");
+    Look::Anime(Anime::default()).apply(&mut scene);
+    let lent = gpu();
+    let shares = [0.0, std::f32::consts::PI].map(|yaw| {
+        let mut view = Shot::framed(&scene, Framing::Face, yaw, [128; 2]);
+        view.channel = Channel::Look("highlight");
+        let picture = support::render(&lent, &scene, &view);
+        let marked = picture.pixels.chunks_exact(4).filter(|p| p[0] > 40).count();
+        marked as f32 / (128.0 * 128.0)
+    });
+    assert!((0.004..0.06).contains(&shares[0]) && shares[1] < 0.001, "{shares:?}");
 }
 
 /// What has turned dark stays dark, and light from the other side is the mirror image, on every face.
