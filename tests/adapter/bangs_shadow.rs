@@ -3,6 +3,7 @@
 use glam::{Mat4, Vec3};
 use hikage::Channel;
 use hikage::color::LinearRgb;
+use hikage::material::BangsShadow;
 use hikage::scene::{Ambient, Bangs, Framing, Image, Role, Scene};
 
 use crate::support::{self, Shot, anime_heroine, gpu, render};
@@ -28,7 +29,11 @@ fn without(scene: &Scene) -> Scene {
         materials: scene
             .materials
             .iter()
-            .map(|m| hikage::material::Material { bangs_shadow: None, ..m.clone() })
+            .map(|m| {
+                // What the section makes of white stays.
+                let off = m.bangs_shadow.map(|b| BangsShadow { strength: 0.0, ..b });
+                hikage::material::Material { bangs_shadow: off, ..m.clone() }
+            })
             .collect(),
         ..scene.clone()
     }
@@ -127,6 +132,8 @@ fn an_artists_direction_overrides_the_light_and_softness_widens_the_edge() {
         material.face_shadow = None;
         // Eyes and mouth receive softer ones.
         material.bangs_shadow = material.bangs_shadow.filter(|_| material.name == "Face");
+        // As wide as it is filtered.
+        material.bangs_shadow = material.bangs_shadow.map(|b| BangsShadow { edges: [0.3, 0.7], ..b });
     }
     let bare = without(&scene);
     // Where both lights show the same bare face, both show the same shadow on it.

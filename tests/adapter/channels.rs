@@ -56,7 +56,7 @@ fn every_channel_shows_its_part() {
         assert!(pictures[..i].iter().all(|b| a.pixels != b.pixels), "{:?} is another channel", SHADING[i]);
     }
     // White in light, dark in shade: the two sides of her face.
-    let [lit, dark] = [112, 146].map(|x| pixel(&pictures[0], x, 205)[0]);
+    let [lit, dark] = [112, 154].map(|x| pixel(&pictures[0], x, 207)[0]);
     assert!(lit > 240 && dark < 40, "{lit} and {dark}");
     // The picture itself is as it was.
     let after = renderer.shoot(&mut uploaded, &view).expect("a picture");

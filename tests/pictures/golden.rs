@@ -330,7 +330,12 @@ fn outlines_of_every_kind() {
 #[test]
 fn outlines_in_the_colour_of_the_surface() {
     let tinted = |tint: OutlineTint| Material {
-        outline: Some(Outline { width: OutlineWidth::World { metres: 0.03 }, tint: Some(tint), clamp_px: Some([0.0, 100.0]), ..Outline::default() }),
+        outline: Some(Outline {
+            width: OutlineWidth::World { metres: 0.03 },
+            tint: Some(tint),
+            clamp_px: Some([0.0, 100.0]),
+            ..Outline::default()
+        }),
         ..two_tone()
     };
     let mut scene = row(vec![

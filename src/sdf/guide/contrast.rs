@@ -12,8 +12,10 @@ use crate::material::Toon;
 pub const KEPT: f32 = 0.8;
 /// Contrast below which nobody sees a feature.
 const SEEN: f32 = 0.012;
-/// Lights: as many all round, at this height, radians.
+/// Lights: as many, over this angle on both sides of the front, at this height, radians. Further back a face lies in shade as a
+/// whole, by the file and by the map.
 const LIGHTS: usize = 12;
+const WIDEST: f32 = 1.44;
 const PITCH: f32 = 0.3;
 /// Half width of the border of the map, as [`FaceShadow`](crate::material::FaceShadow) has it.
 const SOFTNESS: f32 = 0.012;
@@ -80,7 +82,7 @@ impl Guide {
     fn worst(&self, landmarks: &Landmarks, feature: Feature, toon: &Toon, shades: [f32; 2]) -> Contrast {
         let cells = cells(&self.relief, landmarks, feature);
         let lights = (0..LIGHTS).map(|i| {
-            let yaw = (i as f32 / LIGHTS as f32 * 2.0 - 1.0) * std::f32::consts::PI;
+            let yaw = (i as f32 / (LIGHTS - 1) as f32 * 2.0 - 1.0) * WIDEST;
             let to_light = Vec3::new(yaw.sin() * PITCH.cos(), PITCH.sin(), yaw.cos() * PITCH.cos());
             let by = |shade: f32, lit: &dyn Fn(usize) -> f32| {
                 deviation(&cells, |i| self.relief.painted[i] * (shade + (1.0 - shade) * lit(i)))

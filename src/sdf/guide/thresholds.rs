@@ -76,7 +76,9 @@ impl Thresholds {
     /// Thresholds for light from the right and from the left, and the share of normal shading, at a place of the relief.
     pub(super) fn at(&self, place: Vec2) -> [f32; 3] {
         let mirrored = Vec2::new(1.0 - place.x, place.y);
-        [sample(&self.from_left, mirrored), sample(&self.from_left, place), sample(&self.normal, place)]
+        // The mean of both sides is the same on both, to the last bit.
+        let normal = 0.5 * (sample(&self.normal, place) + sample(&self.normal, mirrored));
+        [sample(&self.from_left, mirrored), sample(&self.from_left, place), normal]
     }
 }
 

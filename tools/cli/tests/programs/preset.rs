@@ -44,7 +44,7 @@ fn options_win_over_a_preset() {
     assert!(b > r && b > g, "{r} {g} {b}");
     let red = drawn(&dir, &model, &["--preset", "night", "--background", "#ff0000"]);
     assert_eq!(red.get_pixel(0, 0).0, [255, 0, 0, 255]);
-    for option in [["--light", "150,10"], ["--yaw", "50"], ["--view", "full"]] {
+    for option in [["--light", "150,10"], ["--yaw", "50"], ["--background", "none"]] {
         let other = drawn(&dir, &model, &[&["--preset", "night"][..], &option].concat());
         assert!(other != night, "{option:?}");
     }
