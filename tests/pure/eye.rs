@@ -50,7 +50,7 @@ fn eyes_of_the_built_in_character_have_frames() {
         let position = rest[scene.bone_node(bone).expect("an eye bone")].w_axis.truncate();
         EyeBone { position, forward: Vec3::Z, up: Vec3::Y }
     });
-    for (morph, radius, z) in [(Some("eyeballs"), 0.0255, 0.0455), (None, 0.05 * 0.0255, 0.0155)] {
+    for (morph, radius, z) in [(Some("eyeballs"), 0.0255, 0.0418), (None, 0.05 * 0.0255, 0.0118)] {
         let parts = parts(&scene, "Eyeball", morph);
         for bones in [&bones[..], &[]] {
             let found = frames(&parts, bones);
