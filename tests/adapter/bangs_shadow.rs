@@ -44,6 +44,8 @@ fn heroine_without_ramps() -> Scene {
     let mut scene = anime_heroine();
     scene.materials.iter_mut().for_each(|m| m.shade_ramp = None);
     scene.self_shadow = None;
+    // How much of an eye hair lets through goes by its brightness.
+    scene.eyes_through = None;
     scene
 }
 
@@ -123,7 +125,7 @@ fn the_shadow_depends_on_head_and_light_alone() {
 #[test]
 fn an_artists_direction_overrides_the_light_and_softness_widens_the_edge() {
     let (gpu, mut scene) = (gpu(), heroine_without_ramps());
-    let view = face(&scene, 192);
+    let view = face(&scene, 320);
     let picture = |scene: &Scene, view: &Shot| render(&gpu, scene, view);
     scene.bangs = Some(Bangs { direction_rad: Some([0.4, 0.5]), ..Bangs::default() });
     let mut turned = view.clone();

@@ -51,7 +51,7 @@ fn portrait() -> Shot {
 
 /// Pixels of the cheeks, mouth and chin, before which no hair hangs.
 fn cheeks(image: &Image) -> Vec<[u8; 4]> {
-    (135..158).flat_map(|y| (80..112).map(move |x| (x, y))).map(|(x, y)| support::pixel(image, x, y)).collect()
+    (135..152).flat_map(|y| (82..110).map(move |x| (x, y))).map(|(x, y)| support::pixel(image, x, y)).collect()
 }
 
 fn apart(a: &[[u8; 4]], b: &[[u8; 4]], by: u8) -> usize {

@@ -128,7 +128,7 @@ fn a_turning_head_leaves_no_ghost() {
     scene.materials.iter_mut().for_each(|m| m.outline = None);
     let renderer = renderer(&gpu, 1);
     let mut stage = staged(&renderer, &scene);
-    let view = View { background: Background::Transparent, ..View::framed(&scene, Framing::Face, 0.0, [128, 128]) };
+    let view = View { background: Background::Transparent, ..View::framed(&scene, Framing::Face, 0.0, [256, 256]) };
     let window = Window::new(&gpu, &renderer, view.size);
     let turned = |frame: u32| {
         let mut pose = Pose::rest(&scene);
@@ -143,11 +143,11 @@ fn a_turning_head_leaves_no_ghost() {
         let found = window.draw(&mut stage, &view);
         if frame % 8 == 7 {
             stage.post = None;
-            let fine = View { size: [1024; 2], ..view.clone() };
+            let fine = View { size: [2048; 2], ..view.clone() };
             let expected = crate::temporal::boxed(&renderer.render(&mut stage, &fine).expect("a picture"), view.size);
             let once = renderer.render(&mut stage, &view).expect("a picture");
             let once: Vec<Light> = once.pixels.chunks_exact(4).map(crate::temporal::light_of).collect();
-            let clear = clear_of(&expected, 128, 1, |l| l[3] == 0.0);
+            let clear = clear_of(&expected, 256, 1, |l| l[3] == 0.0);
             let left = found.iter().zip(&clear).filter(|(_, clear)| **clear).map(|(l, _)| l[3]).fold(0.0, f32::max);
             (ghost, smooth) = (ghost.max(left), smooth.max(off_lights(&found, &expected).edges));
             rough = rough.max(off_lights(&once, &expected).edges);

@@ -32,11 +32,11 @@ fn shell(in: Varying) -> vec4f {
     let clump = fluff_clump(at);
     // Tips of a clump come together.
     let strand = fluff_strand(at - clump.to_middle * (0.6 * in.level * in.level));
-    let height = strand.w * mix(1.0, 0.6, saturate(length(clump.to_middle) / FLUFF_CLUMP));
+    let height = strand.w * mix(1.0, 0.9, saturate(length(clump.to_middle) / FLUFF_CLUMP));
     let normal = normalize(in.normal);
     // Seen from the side shells are slices: their tips thin out.
     let facing = saturate(dot(normal, normalize(frame.eye - in.world_position)));
-    let cover = fluff_cover(height, in.level, m.softness) * mix(1.0, 0.5 + 0.5 * smoothstep(0.0, 0.5, facing), in.level);
+    let cover = fluff_cover(height, in.level, m.softness) * mix(1.0, 0.75 + 0.25 * smoothstep(0.0, 0.5, facing), in.level);
     var place = in;
     // Clumps catch the light each in its own way, their strands a little: its border has their shape.
     place.normal = normal + (clump.lean + strand.xyz * 0.2) * m.ruffle;
