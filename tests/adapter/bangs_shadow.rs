@@ -154,7 +154,7 @@ fn an_artists_direction_overrides_the_light_and_softness_widens_the_edge() {
         let partly = |(a, b): &(&[u8], &[u8])| (8..30).contains(&b[1].saturating_sub(a[1]));
         with.pixels.chunks(4).zip(bare.pixels.chunks(4)).filter(partly).count()
     };
-    let (hard, soft) = (half_shadow(0.0015), half_shadow(0.02));
+    let (hard, soft) = (half_shadow(0.0005), half_shadow(0.03));
     assert!(soft > 2 * hard, "{hard} pixels of half shadow, {soft} with a soft edge");
 }
 
