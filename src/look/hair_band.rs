@@ -91,7 +91,7 @@ fn light(scene: &Scene, material: usize) -> Light {
     let parts = scene.meshes.iter().flat_map(|m| &m.primitives).filter(|p| p.material == material);
     let mut colors: Vec<([f32; 3], f32)> = parts.flat_map(|p| painted.of_triangles(p).collect::<Vec<_>>()).collect();
     let area: f32 = colors.iter().map(|(_, a)| a).sum();
-    if !(area > 0.0) {
+    if area.is_nan() || area <= 0.0 {
         return Light { color: [1.0; 3], strength: 0.0 };
     }
     let mean = colors.iter().fold(Vec3::ZERO, |sum, (c, a)| sum + Vec3::from(*c) * (*a / area));

@@ -162,7 +162,7 @@ fn mouth(scene: &Scene, relief: &Relief, chin: f32, eye: Vec2) -> Option<(f32, f
             places.push((at.x.abs(), sideways));
         }
     }
-    if !(weight > 0.0) {
+    if weight.is_nan() || weight <= 0.0 {
         return None;
     }
     let most = places.iter().fold(0.0f32, |most, (_, w)| most.max(*w));
