@@ -28,7 +28,8 @@ fn hash(x: usize, seed: u32) -> f32 {
     (h ^ (h >> 15)) as f32 / u32::MAX as f32
 }
 
-fn smooth(from: f32, to: f32, x: f32) -> f32 {
+/// 0 at `from`, 1 at `to`, smooth between; either may be the greater.
+pub(super) fn smooth(from: f32, to: f32, x: f32) -> f32 {
     let t = ((x - from) / (to - from)).clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)
 }

@@ -7,7 +7,7 @@ use std::f32::consts::PI;
 use glam::{Mat4, Vec3};
 
 use super::BandStyle;
-use super::band_marks::{CELLS, LEVELS, RING_CELLS, VARIANTS, paint};
+use super::band_marks::{CELLS, LEVELS, RING_CELLS, VARIANTS, paint, smooth};
 use super::tone::Tone;
 use crate::material::{Highlight, TextureRef};
 use crate::scene::painted::Painted;
@@ -221,11 +221,6 @@ impl Cell {
 /// An angle within half a turn of 0.
 fn turn(angle: f32) -> f32 {
     (angle + PI).rem_euclid(2.0 * PI) - PI
-}
-
-fn smooth(from: f32, to: f32, x: f32) -> f32 {
-    let t = ((x - from) / (to - from)).clamp(0.0, 1.0);
-    t * t * (3.0 - 2.0 * t)
 }
 
 /// The cell of one lock.
