@@ -20,7 +20,7 @@ const OF_ONE_HUE: f32 = 0.8;
 /// What white cloth is multiplied by: sRGB (190, 196, 226) over (240, 240, 240).
 const LAVENDER: [f32; 3] = [0.59, 0.63, 0.87];
 /// The same where skin may lie among what is white.
-const ROSY_LAVENDER: [f32; 3] = [0.66, 0.58, 0.76];
+const ROSY_LAVENDER: [f32; 3] = [0.6, 0.51, 0.7];
 /// Hues in Oklch, radians: of the shade of what is cool, and of what is warm.
 const BLUE: f32 = -1.5;
 const ROSE: f32 = -0.1;

@@ -2,7 +2,7 @@
 import package::bind::actor::actors;
 import package::bind::vertex::Vertex;
 import package::lib::bangs::{BANGS_BLOCK, BANGS_TAPS, bangs_weight, esm_taps};
-import package::lib::shadow::{shadow_edge, shadow_filtered, shadow_moved, shadow_place};
+import package::lib::shadow::{shadow_edge, shadow_filtered, shadow_moved, shadow_place, shadow_reach};
 
 @group(1) @binding(2) var bangs_map: texture_2d_array<f32>;
 // Nearest depth round each block of it.
@@ -46,14 +46,19 @@ fn shadow_receiver(v: Vertex, position: vec3f, normal: vec3f) -> vec4f {
 // Share of the key light that arrives there. What lies beyond the map is lit, and so is what the caller does not need
 // (`wanted`).
 fn shadow_lit(actor: u32, at: vec4f, wanted: bool) -> f32 {
-    return shadow_drawn(actor, shadow_soft(actor, at, wanted));
+    return shadow_drawn(actor, at, shadow_soft(actor, at, wanted));
 }
 
 // The same by what its map has: near or far, the edge is soft over two pixels.
-fn shadow_drawn(actor: u32, soft: f32) -> f32 {
+fn shadow_drawn(actor: u32, at: vec4f, soft: f32) -> f32 {
     @if(skin_penumbra) return min(soft, actors[actor].key_light);
-    @if(!skin_penumbra) let width = clamp(2.0 * length(vec2f(dpdx(soft), dpdy(soft))), 0.08, 0.7);
-    @if(!skin_penumbra) return min(shadow_edge(soft, width), actors[actor].key_light);
+    @if(!skin_penumbra) {
+        // By how the place moves: what the map has is not known beside the last pixel of a surface.
+        let size = f32(textureDimensions(shadow_map).x);
+        let texels_per_px = size * sqrt(0.5) * length(vec4f(dpdx(at.xy), dpdy(at.xy)));
+        let width = clamp(2.0 * texels_per_px / shadow_reach(actors[actor].shadow_spread * size), 0.08, 0.7);
+        return min(shadow_edge(soft, width), actors[actor].key_light);
+    }
 }
 
 // Share of light that the shadow map lets through there, with an edge as wide as it is filtered.

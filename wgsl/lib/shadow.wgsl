@@ -55,7 +55,7 @@ fn shadow_filtered(
     map: texture_depth_2d_array, map_sampler: sampler_comparison, at: vec3f, layer: i32, spread: f32, wanted: bool
 ) -> f32 {
     let size = vec2f(textureDimensions(map));
-    let reach = spread * size.x * 0.5 + 1.5;
+    let reach = shadow_reach(spread * size.x);
     let p = at.xy * size - 0.5;
     // Eight by eight texels, four at a time.
     let first = floor(p) - 3.0;
@@ -80,6 +80,11 @@ fn shadow_filtered(
         lit += shadow_weighted(four, place - 3.0 - f, reach);
     }
     return select(lit.x / lit.y, texels / 16.0, agree);
+}
+
+// How far the bell of an edge of `width` texels reaches, texels; one over it is how steep the edge is in its middle.
+fn shadow_reach(width: f32) -> f32 {
+    return width * 0.5 + 1.5;
 }
 
 // Four texels, the first of them `d` texels from the middle, by their weights in the bell; then the sum of these.

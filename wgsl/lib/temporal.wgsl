@@ -25,10 +25,11 @@ fn rgb_from_ycocg(c: vec4f) -> vec4f {
     return vec4f(t + c.y, c.x + c.z, t - c.y, c.a);
 }
 
-// What lies outside of a box goes towards its middle until it lies on its side.
+// What lies outside of a box goes towards its middle until it lies on its side. 2e-3: where a channel is the same all over,
+// as alpha within a shape, what rounding makes of it would draw all channels to the middle.
 fn clipped_to_box(c: vec4f, middle: vec4f, half: vec4f) -> vec4f {
     let away = c - middle;
-    let times = abs(away) / max(half, vec4f(1e-5));
+    let times = abs(away) / max(half, vec4f(2e-3));
     return middle + away / max(1.0, max(max(times.x, times.y), max(times.z, times.w)));
 }
 

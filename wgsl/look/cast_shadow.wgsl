@@ -33,7 +33,7 @@ fn cast_shadow_shade(s: Surface, border: Border) -> Border {
     @if(shade_ramp) wanted = max(wanted, b.soft);
     @if(skin_edge) wanted = max(wanted, 1.0 + b.edge);
     let soft = shadow_soft(s.at.actor, s.at.shadow, wanted > 0.0);
-    b.own_lit = shadow_drawn(s.at.actor, soft);
+    b.own_lit = shadow_drawn(s.at.actor, s.at.shadow, soft);
     // On a face with a map only where that leaves it to normal shading, and below the jaw.
     var of_body = b.of_body;
     @if(face_shadow) of_body = max(of_body, saturate((s.at.shadow.w - round(s.at.shadow.w)) / UNDERSIDE));

@@ -65,7 +65,8 @@ fn line(in: Varying) -> vec4f {
     }
     var color = tinted(in);
     @if(!outline_tint) color = mtoon_outline(m.color, surface.rgb, m.lighting_mix);
-    var cover = in.line_cover;
+    // 1 between vertices of 1, whatever rounding makes of it: nothing behind a whole line shows.
+    var cover = saturate(in.line_cover * 1.0001);
     @if(blend) cover *= surface.a;
     return vec4f(encoded(color) * cover, cover);
 }

@@ -33,9 +33,10 @@ struct TemporalNumbers {
 @group(0) @binding(5) var past: texture_2d<f32>;
 @group(0) @binding(6) var history_sampler: sampler;
 
-// Most pictures in a mean, of what stands still and of what moves: each move softens it.
+// Most pictures in a mean, of what stands still and of what moves: each move softens it, and contours do not move as their
+// surfaces do.
 const MOST: f32 = 24.0;
-const MOST_MOVING: f32 = 8.0;
+const MOST_MOVING: f32 = 4.0;
 
 struct Resolved {
     @location(0) color: vec4f,
@@ -147,7 +148,7 @@ fn fs_main(in: PictureVarying) -> Resolved {
     let half = max(spread * select(1.25, 2.0, has_stayed), vec4f(select(0.0, sqrt(known.z), has_stayed)));
     let now = ycocg_from_rgb(drawn);
     let before = clipped_to_box(ycocg_from_rgb(pressed(history_at(from_place))), mean, half);
-    let count = select(0.0, min(known.y, mix(MOST, MOST_MOVING, saturate(length(moved) * 2.0)) - 1.0), is_known);
+    let count = select(0.0, min(known.y, mix(MOST, MOST_MOVING, saturate(length(moved) * 8.0)) - 1.0), is_known);
     let kept = count / (count + 1.0);
     let off = (now - before) * (now - before);
     let differs = mix(max(max(off.x, off.y), max(off.z, off.w)), known.z, kept) * select(0.0, 1.0, is_known && has_stayed);

@@ -34,6 +34,8 @@ pub(super) struct Relief {
     pub(super) painted: Field,
     /// Normals of the mesh, in the world at rest.
     pub(super) normals: Vec<Vec3>,
+    /// Side of a triangle of the mesh in front, share of the height: what is finer is no feature but a facet.
+    pub(super) facet: f32,
 }
 
 impl Relief {
@@ -48,6 +50,7 @@ impl Relief {
         let depth = ((high.z - low.z) * 0.5).max(0.4 * head);
         let foot = Vec3::new((low.x + high.x) * 0.5, low.y, high.z - depth);
         let mut raster = Raster::new(SIDE);
+        let (mut area, mut sides) = (0.0, 0.0);
         for (primitive, matrix, shares) in faces(scene, material)? {
             let corner = |v: usize| {
                 let position = matrix.transform_point3(Vec3::from(primitive.positions[v]));
@@ -63,6 +66,11 @@ impl Relief {
                 if let (Some(a), Some(b), Some(c)) = (corner(0), corner(1), corner(2)) {
                     // Behind the head, angles jump.
                     let is_behind = [a, b, c].iter().any(|c| (c.uv.x - 0.5).abs() > 0.7);
+                    if [a, b, c].iter().all(|c| (c.uv.x - 0.5).abs() < 0.25) {
+                        let scale = Vec2::new(2.0 * REACH * depth, height);
+                        let of = 0.5 * ((b.uv - a.uv) * scale).perp_dot((c.uv - a.uv) * scale).abs();
+                        (area, sides) = (area + of, sides + of * (2.0 * of).sqrt());
+                    }
                     if !is_behind {
                         raster.triangle([a, b, c], |old, new| new[0] > old[0])?;
                     }
@@ -88,6 +96,7 @@ impl Relief {
             distance: even(&|v| v[0]),
             share: even(&|v| v[1]),
             painted: even(&luminance),
+            facet: sides / f32::max(area, 1e-12) / height,
             normals: (0..SIDE * SIDE).map(|i| Vec3::from_slice(&value(i)[4..]).normalize_or(Vec3::Z)).collect(),
         })
     }

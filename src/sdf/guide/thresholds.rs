@@ -23,9 +23,10 @@ impl Thresholds {
     pub(super) fn new(relief: &Relief, landmarks: Option<&Landmarks>, style: FaceStyle) -> Self {
         let degree = SIDE as f32 / (2.0 * REACH.to_degrees());
         let row = SIDE as f32;
-        // The head as if it had no features, and features without what is finer than them.
+        // The head as if it had no features, and features without what is finer than them, or than the mesh.
         let head = smoothed(&relief.distance, 13.0 * degree, 0.07 * row);
-        let features = smoothed(&relief.distance, 2.5 * degree, 0.011 * row);
+        let fine = (0.5 * relief.facet).clamp(0.011, 0.07);
+        let features = smoothed(&relief.distance, (fine / 0.011 * 2.5).min(13.0) * degree, fine * row);
         let share = smoothed(&relief.share, 2.0 * degree, 0.01 * row);
         let cells = (0..SIDE * SIDE).into_par_iter();
         let both: Vec<(f32, f32)> = cells
@@ -133,7 +134,7 @@ fn cheek_light(l: &Landmarks, place: Vec2, dark_at: f32) -> f32 {
 fn drawn(l: &Landmarks, style: FaceStyle, place: Vec2, dark_at: f32) -> f32 {
     let side = -place.x;
     let (tall, wide) = match style {
-        FaceStyle::Soft => (0.26, 0.3),
+        FaceStyle::Soft => (0.36, 0.24),
         FaceStyle::Classic => (0.5, 0.48),
         FaceStyle::Minimal => (0.0, 0.0),
     };
