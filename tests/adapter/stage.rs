@@ -189,6 +189,8 @@ fn each_face_has_the_shadow_of_its_own_bangs() {
     let mut scene = anime_heroine();
     keep(&mut scene, HEAD);
     assert!(scene.bangs.is_some());
+    // The maps of the bangs alone: SwiftShader draws a texel on the border of a cast shadow otherwise beside a second map.
+    scene.self_shadow = None;
     with_renderer(&gpu, |renderer| {
         let character = renderer.upload(&scene).expect("an upload");
         let alone = |renderer: &Renderer, turn: f32, x: f32| {
@@ -212,13 +214,10 @@ fn each_face_has_the_shadow_of_its_own_bangs() {
             both.lights = framed.lights.clone();
             let together = renderer.render(&mut both, &framed.view()).expect("a picture");
             let alone = alone(renderer, turn, x);
-            let differ = |a: &[u8], b: &[u8]| a.iter().zip(b).filter(|(a, b)| a != b).count();
-            // Where a texel of a map is as near to the light as what it is compared with, rounding decides.
-            let off = differ(&together.pixels, &alone.pixels);
-            assert!(off <= 8, "turned by {turn}, together: {off} bytes differ");
+            assert!(together.pixels == alone.pixels, "turned by {turn}");
             crowd.lights = framed.lights.clone();
             let among = renderer.render(&mut crowd, &framed.view()).expect("a picture");
-            let off = differ(&among.pixels, &alone.pixels);
+            let off = among.pixels.iter().zip(&alone.pixels).filter(|(a, b)| a != b).count();
             assert!(off <= 8, "turned by {turn}, in a crowd: {off} bytes differ");
         }
     });

@@ -34,7 +34,7 @@ pub(super) struct Relief {
     pub(super) painted: Field,
     /// Normals of the mesh, in the world at rest.
     pub(super) normals: Vec<Vec3>,
-    /// Side of a triangle of the mesh in front, share of the height: what is finer is no feature but a facet.
+    /// Mean side of the mesh's triangles in front, each counted by its area, share of the height: what is finer is a facet.
     pub(super) facet: f32,
 }
 
@@ -51,6 +51,7 @@ impl Relief {
         let foot = Vec3::new((low.x + high.x) * 0.5, low.y, high.z - depth);
         let mut raster = Raster::new(SIDE);
         let (mut area, mut sides) = (0.0, 0.0);
+        let metres = Vec2::new(2.0 * REACH * depth, height);
         for (primitive, matrix, shares) in faces(scene, material)? {
             let corner = |v: usize| {
                 let position = matrix.transform_point3(Vec3::from(primitive.positions[v]));
@@ -67,8 +68,7 @@ impl Relief {
                     // Behind the head, angles jump.
                     let is_behind = [a, b, c].iter().any(|c| (c.uv.x - 0.5).abs() > 0.7);
                     if [a, b, c].iter().all(|c| (c.uv.x - 0.5).abs() < 0.25) {
-                        let scale = Vec2::new(2.0 * REACH * depth, height);
-                        let of = 0.5 * ((b.uv - a.uv) * scale).perp_dot((c.uv - a.uv) * scale).abs();
+                        let of = 0.5 * ((b.uv - a.uv) * metres).perp_dot((c.uv - a.uv) * metres).abs();
                         (area, sides) = (area + of, sides + of * (2.0 * of).sqrt());
                     }
                     if !is_behind {
