@@ -11,7 +11,7 @@ use crate::material::{
     Gem, Glow, Highlight, Layer, Material, Outline, OutlineTint, OutlineWidth, RampMaps, ShadeRamp, Shading,
     ShapedHighlight, Sparkle, Stocking, Substance, Transition,
 };
-use crate::scene::{Bangs, Bloom, EyesThrough, Post, Role, Scene, SelfShadow, Warning};
+use crate::scene::{Bangs, Bloom, EyesThrough, HumanBone, Post, Role, Scene, SelfShadow, Warning};
 use crate::sdf::{FaceMap, FaceStyle, Feature, Guide, Sides};
 
 /// Materials that get a face's shadow: characters have one to three, and a file of thousands must not fill the memory.
@@ -80,6 +80,13 @@ fn outlines(scene: &mut Scene) {
 /// Head, body and clothes cast on body and clothes, and of a face on the neck. Locks of hair and tufts of fur do not: nobody
 /// draws the shade of each, and their edges would tear all others.
 fn self_shadow(scene: &mut Scene) {
+    // What nobody knows for a face would be cut across its eyes by the shadow of a hat.
+    if scene.bone_node(HumanBone::Head).is_some() && materials_of(scene, Role::Face).is_empty() {
+        let message = "cast shadows are left out: no part is known to be the face, which those of a hat would darken; \
+            say which one is, as in [parts] Head = \"face\"";
+        scene.warnings.push(Warning { pointer: String::new(), message: message.to_owned() });
+        return;
+    }
     scene.self_shadow = Some(SelfShadow::default());
     let of = |scene: &Scene, roles: &[Role]| -> BTreeSet<usize> {
         roles.iter().flat_map(|role| materials_of(scene, *role)).collect()

@@ -16,9 +16,9 @@ pub(super) const VARIANTS: usize = 4;
 
 /// Texels of a cell, and of the picture's height.
 const CELL: usize = 96;
-const HEIGHT: usize = 512;
-/// Thickness of the band, share of the picture's height: 6 % of the head's.
-const THICK: f32 = 0.058;
+const HEIGHT: usize = 128;
+/// Thickness of the band, share of the picture's height.
+const THICK: f32 = 0.232;
 
 /// The same number between 0 and 1 for the same place.
 fn hash(x: usize, seed: u32) -> f32 {
@@ -59,23 +59,49 @@ fn edges(style: BandStyle, seed: usize, points: usize, t: f32) -> [f32; 2] {
     [top, (sag + body * 0.12 + tip * body).max(top)]
 }
 
-/// Coverage of the mark over one texel.
-fn mark(style: BandStyle, seed: usize, points: usize, t: f32, y: f32) -> f32 {
-    let [top, bottom] = edges(style, seed, points, t);
-    let edge = 1.2 / (THICK * HEIGHT as f32);
-    let inside = smooth(top - edge, top + edge, y) * smooth(bottom + edge, bottom - edge, y);
-    // A mark that ends in a point has no width there to fill a texel.
-    inside * smooth(0.0, 2.0 * edge, bottom - top)
+/// What a column of texels shows of a mark.
+#[derive(Clone, Copy)]
+struct Column {
+    /// Upper and lower edge, in thicknesses below the band's middle.
+    edges: [f32; 2],
+    /// Share of the mark's strength.
+    strength: f32,
+}
+
+impl Column {
+    fn at(style: BandStyle, x: usize) -> Self {
+        let (cell, t) = (x / CELL, (x % CELL) as f32 / CELL as f32);
+        let Some(cell) = cell.checked_sub(RING_CELLS) else {
+            return ring(style, (x as f32 + 0.5) / (RING_CELLS * CELL) as f32);
+        };
+        let (level, variant) = (cell / VARIANTS + 1, cell % VARIANTS);
+        let points = if variant < VARIANTS / 2 {
+            1 + variant % 2
+        } else {
+            3 + variant % 2
+        };
+        // A tenth of the cell on both sides stays empty: the lock's border.
+        let edges = edges(style, variant, points, (t - 0.13) / 0.74);
+        Self { edges, strength: level as f32 / LEVELS as f32 }
+    }
+
+    /// Coverage of one texel.
+    fn cover(self, y: f32) -> f32 {
+        let [top, bottom] = self.edges;
+        let edge = 1.2 / (THICK * HEIGHT as f32);
+        let inside = smooth(top - edge, top + edge, y) * smooth(bottom + edge, bottom - edge, y);
+        // A mark that ends in a point has no width there to fill a texel.
+        self.strength * inside * smooth(0.0, 2.0 * edge, bottom - top)
+    }
 }
 
 /// The ring at a share of the way from the front to the back.
-fn ring(style: BandStyle, around: f32, y: f32) -> f32 {
-    let left = smooth(0.56, 0.27, around);
+fn ring(style: BandStyle, around: f32) -> Column {
+    let strength = smooth(0.56, 0.27, around);
     if style == BandStyle::Ring {
         let wave = 0.05 * (around * 40.0).sin() + 0.04 * (around * 93.0 + 1.0).sin();
         let half = 0.36 * smooth(0.6, 0.2, around);
-        let edge = 1.5 / (THICK * HEIGHT as f32);
-        return left * smooth(half + edge, half - edge, (y - wave).abs()) * smooth(0.0, edge, half);
+        return Column { edges: [wave - half, wave + half], strength };
     }
     let cells = RING_CELLS as f32;
     let place = around * cells;
@@ -83,35 +109,21 @@ fn ring(style: BandStyle, around: f32, y: f32) -> f32 {
     let border = |i: usize| i as f32 + if i == 0 { 0.0 } else { 0.5 * (hash(i, 11) - 0.5) };
     let i = (0..RING_CELLS).rev().find(|i| border(*i) <= place).unwrap_or(0);
     let t = (place - border(i)) / (border(i + 1) - border(i));
-    left * mark(style, 40 + i, 3, (t - 0.04) / 0.92, y)
+    Column { edges: edges(style, 40 + i, 3, (t - 0.04) / 0.92), strength }
 }
 
 /// Red: the marks, 0 where there is none.
 pub(super) fn paint(style: BandStyle) -> Image {
     let width = CELLS * CELL;
-    let mut pixels = vec![0u8; width * HEIGHT * 4];
+    let columns: Vec<Column> = (0..width).map(|x| Column::at(style, x)).collect();
+    let mut pixels = [0u8, 0, 0, 255].repeat(width * HEIGHT);
     pixels.par_chunks_exact_mut(width * 4).enumerate().for_each(|(row, out)| {
         let y = ((row as f32 + 0.5) / HEIGHT as f32 - 0.5) / THICK;
-        for (x, texel) in out.chunks_exact_mut(4).enumerate() {
-            texel[3] = 255;
-            if y.abs() > 2.0 {
-                continue;
-            }
-            let (cell, t) = (x / CELL, (x % CELL) as f32 / CELL as f32);
-            let share = match cell.checked_sub(RING_CELLS) {
-                None => ring(style, (x as f32 + 0.5) / (RING_CELLS * CELL) as f32, y),
-                Some(cell) => {
-                    let (level, variant) = (cell / VARIANTS + 1, cell % VARIANTS);
-                    let points = if variant < VARIANTS / 2 {
-                        1 + variant % 2
-                    } else {
-                        3 + variant % 2
-                    };
-                    // A tenth of the cell on both sides stays empty: the lock's border.
-                    level as f32 / LEVELS as f32 * mark(style, variant, points, (t - 0.13) / 0.74, y)
-                }
-            };
-            texel[0] = (share.clamp(0.0, 1.0) * 255.0).round() as u8;
+        if y.abs() > 2.0 {
+            return;
+        }
+        for (column, texel) in columns.iter().zip(out.chunks_exact_mut(4)) {
+            texel[0] = (column.cover(y).clamp(0.0, 1.0) * 255.0).round() as u8;
         }
     });
     Image {

@@ -15,8 +15,9 @@ use crate::scene::{Filter, Primitive, Sampler, Scene, Texture, Wrap};
 
 /// Angle from above of the band's middle, radians; light and view from the front move it up from there.
 const MIDDLE: f32 = 1.05;
-/// Angle over which the marks' picture reaches from its upper to its lower edge, radians.
-const REACH: f32 = 2.1;
+/// Angle over which the marks' picture reaches from its upper to its lower edge, radians: the band is 6 % of the head's height,
+/// and there are none beyond.
+const REACH: f32 = 0.525;
 /// Widest lock that has one mark, radians round the head; what is wider is a cap of many.
 const WIDEST: f32 = 0.9;
 /// Angle from the front from which marks fade, and at which they have gone, radians: over the temples.
@@ -69,8 +70,8 @@ pub(super) fn add(scene: &mut Scene, materials: &BTreeSet<usize>, style: BandSty
             map,
             color,
             strength,
-            light_v: 0.045,
-            view_v: 0.045,
+            light_v: 0.18,
+            view_v: 0.18,
             in_shade: 0.04,
             ..Highlight::default()
         });

@@ -7,7 +7,7 @@ pub const MAX_SHELLS: u32 = 24;
 
 crate::section! {
     /// Shells round the surface, each with the strands that reach so far. Fewer are drawn where they would lie closer than a
-    /// pixel. Light and colour are those of the surface; strands grow darker towards the root.
+    /// pixel and a half. Light and colour are those of the surface; strands grow darker towards the root.
     /// Each shell costs what drawing the surface once more does.
     #[derive(Copy)]
     Fluff = "fluff" { channel: Some(("fluff", "Height of a coat of short hair, root to tip.")) }

@@ -335,8 +335,8 @@ impl Layouts {
             read(numbers),
             read(numbers),
             read(Sampler(SamplerBindingType::NonFiltering)),
-            read(bind::texture(T::Depth, D::D2Array)),
-            read(Sampler(SamplerBindingType::Comparison)),
+            (both, bind::texture(T::Depth, D::D2Array)),
+            (both, Sampler(SamplerBindingType::Comparison)),
         ];
         Self { frame: bind::layout(gpu, "frame", frame), character: bind::layout(gpu, "character", character) }
     }

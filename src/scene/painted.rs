@@ -1,11 +1,17 @@
 //! What a file paints: the lit colour of a material at any place of its textures.
 
+use std::sync::LazyLock;
+
 use super::{Image, Primitive, Scene};
 use crate::color::linear_from_srgb;
 use crate::material::{Material, UvTransform};
 
 /// Most triangles of a part whose colours are read.
 const MOST_READ: usize = 4096;
+
+/// Linear values of the codes of a channel.
+static DECODED: LazyLock<[f32; 256]> =
+    LazyLock::new(|| std::array::from_fn(|code| linear_from_srgb(code as f32 / 255.0)));
 
 /// The lit colours of a material.
 pub(crate) struct Painted<'a> {
@@ -42,9 +48,8 @@ impl<'a> Painted<'a> {
         let x = place(u * cos + v * sin + offset[0], image.width);
         let y = place(v * cos - u * sin + offset[1], image.height);
         let at = (y * image.width as usize + x) * 4;
-        let channel = |c: usize| f32::from(image.pixels[at + c]) / 255.0;
-        let linear = |c: usize| linear_from_srgb(channel(c)) * self.factor[c];
-        [linear(0), linear(1), linear(2), channel(3) * self.factor[3]]
+        let linear = |c: usize| DECODED[usize::from(image.pixels[at + c])] * self.factor[c];
+        [linear(0), linear(1), linear(2), f32::from(image.pixels[at + 3]) / 255.0 * self.factor[3]]
     }
 
     /// Texture coordinates of a vertex of a part.

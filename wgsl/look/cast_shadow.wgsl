@@ -7,6 +7,7 @@ import package::bind::varying::{Varying, in_face_frame};
 import package::bind::vertex::{Vertex, world_position};
 import package::lib::face_shadow::face_underside;
 import package::lib::normal::normalize_or;
+import package::lib::shadow::shadow_edge;
 import package::material::material;
 
 struct CastShadow {
@@ -21,8 +22,13 @@ fn cast_shadow_vary(v: Vertex, given: Varying) -> Varying {
         let place = in_face_frame(v, normalize_or(from_middle, vec3f(0.0, 1.0, 0.0)));
         out.shadow.w += UNDERSIDE * face_underside(place.y, in_face_frame(v, out.normal).y);
     }
+    // Shells of a coat lie over each other, and its hair is soft: once a vertex instead of once a pixel of each.
+    @if(level) out.shadow.x = shadow_soft(v.actor, out.shadow, true);
     return out;
 }
+
+// Share of what the map spreads that is soft on a coat.
+const COAT_EDGE: f32 = 0.7;
 
 // How far the underside of the jaw shows in the number of the layer, which is rounded.
 const UNDERSIDE: f32 = 0.45;
@@ -32,8 +38,10 @@ fn cast_shadow_shade(s: Surface, border: Border) -> Border {
     var wanted = b.shading;
     @if(shade_ramp) wanted = max(wanted, b.soft);
     @if(skin_edge) wanted = max(wanted, 1.0 + b.edge);
-    let soft = shadow_soft(s.at.actor, s.at.shadow, wanted > 0.0);
-    b.own_lit = shadow_drawn(s.at.actor, s.at.shadow, soft);
+    @if(level) let soft = s.at.shadow.x;
+    @if(!level) let soft = shadow_soft(s.at.actor, s.at.shadow, wanted > 0.0);
+    @if(level) b.own_lit = min(shadow_edge(soft, COAT_EDGE), actors[s.at.actor].key_light);
+    @if(!level) b.own_lit = shadow_drawn(s.at.actor, s.at.shadow, soft);
     // On a face with a map only where that leaves it to normal shading, and below the jaw.
     var of_body = b.of_body;
     @if(face_shadow) of_body = max(of_body, saturate((s.at.shadow.w - round(s.at.shadow.w)) / UNDERSIDE));

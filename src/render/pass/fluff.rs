@@ -10,7 +10,7 @@ use crate::render::variants::Request;
 /// Shells of a coat: `fluff_shells` of `wgsl/lib/fluff.wgsl`.
 fn shells(fluff: &Fluff, px_per_m: f32) -> u32 {
     let most = fluff.shells;
-    ((fluff.length_m * px_per_m).ceil() as u32).clamp(most.min(4), most)
+    ((fluff.length_m * px_per_m / 1.5).ceil() as u32).clamp(most.min(4), most)
 }
 
 /// What draws the coat of a material.

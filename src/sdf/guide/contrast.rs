@@ -1,6 +1,7 @@
 //! Whether a face can still be read: the contrast of its features under the file's own shading and under the map.
 
 use glam::{Vec2, Vec3};
+use rayon::prelude::*;
 use serde::Serialize;
 
 use super::Guide;
@@ -65,30 +66,33 @@ impl Guide {
     /// of it, and the map does not belong to this mesh.
     #[must_use]
     pub fn changed(&self, toon: &Toon) -> f32 {
-        let front = (0..SIDE * SIDE).filter(|i| {
+        let front = (0..SIDE * SIDE).into_par_iter().filter(|i| {
             let from = Vec2::new((i % SIDE) as f32, (i / SIDE) as f32) / SIDE as f32 - 0.5;
             from.x.abs() < 0.2 && from.y.abs() < 0.4
         });
         let to_light = Vec3::new(0.0, PITCH.sin(), PITCH.cos());
-        let (mut changed, mut all) = (0usize, 0usize);
-        for i in front {
+        let differs = |i: usize| {
             let own = own(toon, self.relief.normals[i], to_light);
-            changed += usize::from((self.lit(i, 0.0, own) - own).abs() > 0.5);
-            all += 1;
-        }
+            (lit(self.at_cell(i), 0.0, own) - own).abs() > 0.5
+        };
+        let counts = front.map(|i| (usize::from(differs(i)), 1));
+        let (changed, all) = counts.reduce(|| (0, 0), |a, b| (a.0 + b.0, a.1 + b.1));
         changed as f32 / all.max(1) as f32
     }
 
     fn worst(&self, landmarks: &Landmarks, feature: Feature, toon: &Toon, shades: [f32; 2]) -> Contrast {
-        let cells = cells(&self.relief, landmarks, feature);
+        let (width, cells) = cells(&self.relief, landmarks, feature);
+        let thresholds: Vec<[f32; 3]> = cells.iter().map(|i| self.at_cell(*i)).collect();
         let lights = (0..LIGHTS).map(|i| {
             let yaw = (i as f32 / (LIGHTS - 1) as f32 * 2.0 - 1.0) * WIDEST;
             let to_light = Vec3::new(yaw.sin() * PITCH.cos(), PITCH.sin(), yaw.cos() * PITCH.cos());
-            let by = |shade: f32, lit: &dyn Fn(usize) -> f32| {
-                deviation(&cells, |i| self.relief.painted[i] * (shade + (1.0 - shade) * lit(i)))
-            };
-            let before = by(shades[0], &|i| own(toon, self.relief.normals[i], to_light));
-            let after = by(shades[1], &|i| self.lit(i, yaw, own(toon, self.relief.normals[i], to_light)));
+            let by_file: Vec<f32> = cells.iter().map(|i| own(toon, self.relief.normals[*i], to_light)).collect();
+            let mapped = thresholds.iter().zip(&by_file).map(|(at, own)| lit(*at, yaw, *own)).collect();
+            let [before, after] = [(by_file, shades[0]), (mapped, shades[1])].map(|(lit, shade)| {
+                let painted = cells.iter().map(|i| self.relief.painted[*i]);
+                let luminance = painted.zip(lit).map(|(painted, lit)| painted * (shade + (1.0 - shade) * lit));
+                deviation(width, &luminance.collect::<Vec<_>>())
+            });
             Contrast { feature, yaw_deg: yaw.to_degrees(), before, after }
         });
         let share = |c: &Contrast| if c.before > SEEN { c.after / c.before } else { f32::MAX };
@@ -96,14 +100,9 @@ impl Guide {
         lights.min_by(|a, b| share(a).total_cmp(&share(b))).unwrap_or(none)
     }
 
-    /// Share of light under the map at a cell.
-    fn lit(&self, cell: usize, yaw: f32, own: f32) -> f32 {
-        let middle = Vec2::new((cell % SIDE) as f32 + 0.5, (cell / SIDE) as f32 + 0.5) / SIDE as f32;
-        let [right, left, normal] = self.thresholds.at(middle);
-        let tau = if yaw >= 0.0 { left } else { right };
-        let t = ((tau - yaw.abs() / std::f32::consts::PI) / (2.0 * SOFTNESS) + 0.5).clamp(0.0, 1.0);
-        let mapped = t * t * (3.0 - 2.0 * t);
-        mapped + (own - mapped) * normal
+    /// Thresholds in the middle of a cell.
+    fn at_cell(&self, cell: usize) -> [f32; 3] {
+        self.thresholds.at(Vec2::new((cell % SIDE) as f32 + 0.5, (cell / SIDE) as f32 + 0.5) / SIDE as f32)
     }
 
     /// Leaves a feature to the file's own shading by a share, with a smooth border.
@@ -122,6 +121,14 @@ impl Guide {
     }
 }
 
+/// Share of light where the map has these thresholds.
+fn lit([right, left, normal]: [f32; 3], yaw: f32, own: f32) -> f32 {
+    let tau = if yaw >= 0.0 { left } else { right };
+    let t = ((tau - yaw.abs() / std::f32::consts::PI) / (2.0 * SOFTNESS) + 0.5).clamp(0.0, 1.0);
+    let mapped = t * t * (3.0 - 2.0 * t);
+    mapped + (own - mapped) * normal
+}
+
 /// MToon's shading of a normal.
 fn own(toon: &Toon, normal: Vec3, to_light: Vec3) -> f32 {
     let x = normal.dot(to_light) + toon.shift;
@@ -137,22 +144,22 @@ fn bounds(l: &Landmarks, feature: Feature) -> (f32, Vec2) {
     }
 }
 
-/// Columns and rows of a feature.
-fn cells(relief: &Relief, l: &Landmarks, feature: Feature) -> Vec<Vec<usize>> {
+/// The box of cells of a feature, row by row, and how many are a row.
+fn cells(relief: &Relief, l: &Landmarks, feature: Feature) -> (usize, Vec<usize>) {
     let (middle, half) = bounds(l, feature);
     let [left, top] = Relief::cell(place(relief, -half.x, middle + half.y));
     let [right, bottom] = Relief::cell(place(relief, half.x, middle - half.y));
-    (top..=bottom).map(|y| (left..=right).map(|x| y * SIDE + x).collect()).collect()
+    let cells = (top..=bottom).flat_map(|y| (left..=right).map(move |x| y * SIDE + x)).collect();
+    ((right + 1).saturating_sub(left), cells)
 }
 
 /// Root mean square of what stands out from the plane that lies through the luminance of a box, share of its mean: a border
 /// between light and shade that crosses the whole box counts little, a mark in it counts whole.
-fn deviation(rows: &[Vec<usize>], luminance: impl Fn(usize) -> f32) -> f32 {
-    let (height, width) = (rows.len(), rows.first().map_or(0, Vec::len));
+fn deviation(width: usize, values: &[f32]) -> f32 {
+    let height = values.len().checked_div(width).unwrap_or(0);
     if height < 2 || width < 2 {
         return 0.0;
     }
-    let values: Vec<f32> = rows.iter().flatten().map(|i| luminance(*i)).collect();
     let count = values.len() as f32;
     let mean = values.iter().sum::<f32>() / count;
     let at = |i: usize| {

@@ -3,7 +3,7 @@
 use glam::{Vec2, Vec3};
 use serde::Serialize;
 
-use super::relief::{Field, Relief, SIDE, sample, smoothed};
+use super::relief::{Relief, SIDE, sample};
 use crate::scene::{HumanBone, Mesh, Role, Scene};
 
 /// Contrast of luminance over its surroundings from which a file counts as painting a feature itself.
@@ -66,11 +66,9 @@ impl Landmarks {
         let nose = between(share.unwrap_or(0.4));
         let beside = at(0.55 * eye.x, nose);
         let nose_out = (at(0.0, nose) - beside) / relief.height;
-        let fine = smoothed(&relief.distance, 1.0, 1.0);
-        let broad = smoothed(&relief.distance, 7.0, 7.0);
-        let dent: Field = broad.iter().zip(&fine).map(|(b, f)| b - f).collect();
         let rows = (-12..=12).map(|i| mouth + i as f32 * 0.0025);
-        let depth = |up: f32| self::at(relief, &dent, 0.0, up) + self::at(relief, &dent, 0.4 * mouth_half, up);
+        let depth =
+            |up: f32| self::at(relief, &relief.dent, 0.0, up) + self::at(relief, &relief.dent, 0.4 * mouth_half, up);
         let crease = rows.max_by(|a, b| depth(*a).total_cmp(&depth(*b))).unwrap_or(mouth);
         let mouth_depth = depth(crease) * 0.5 / relief.height;
         let contrast = |low: Vec2, high: Vec2| contrast(relief, low, high);

@@ -13,6 +13,7 @@ mod thresholds;
 mod wireframe;
 
 use glam::{Vec2, Vec3};
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 pub use contrast::{Contrast, Feature, KEPT};
@@ -118,7 +119,7 @@ impl Guide {
             let below = ((0.98 - share) / 0.23).clamp(0.0, 1.0);
             [code(right), code(left), code(normal.max(below * below * (3.0 - 2.0 * below))), u16::MAX]
         };
-        let rgba = raster.texels.iter().map(texel).collect();
+        let rgba = raster.texels.par_iter().map(texel).collect();
         Some(FaceMap::single("from the mesh", texels(rgba)))
     }
 
@@ -126,12 +127,11 @@ impl Guide {
     /// own texture shares or mirrors.
     #[must_use]
     pub fn over_relief(&self) -> FaceMap {
-        let texel = |i: usize| {
-            let place = Vec2::new((i % SIDE) as f32 + 0.5, (i / SIDE) as f32 + 0.5) / SIDE as f32;
-            let [right, left, normal] = self.thresholds.at(place);
-            [code(right), code(left), code(normal), u16::MAX]
-        };
-        let rgba = (0..SIDE * SIDE).map(texel).collect();
+        let texel = |[right, left, normal]: [f32; 3]| [code(right), code(left), code(normal), u16::MAX];
+        let mut rgba = vec![[0; 4]; SIDE * SIDE];
+        rgba.par_chunks_exact_mut(SIDE).enumerate().for_each(|(y, row)| {
+            row.iter_mut().zip(self.thresholds.row(y, SIDE)).for_each(|(to, from)| *to = texel(from));
+        });
         FaceMap { uv_set: 1, ..FaceMap::single("from the mesh", texels(rgba)) }
     }
 

@@ -77,9 +77,11 @@ impl<const N: usize> Raster<N> {
         let mut is_queued = vec![false; texels.len()];
         for _ in 0..rings {
             let mean = |i: &usize| {
-                let near: Vec<[f32; N]> = beside(*i).filter_map(|n| texels[n]).collect();
-                let sum = |c: usize| near.iter().map(|value| value[c]).sum::<f32>();
-                std::array::from_fn(|c| sum(c) / near.len().max(1) as f32)
+                let near = beside(*i).filter_map(|n| texels[n]);
+                let (sum, count) = near.fold(([0.0; N], 0usize), |(sum, count), value| {
+                    (std::array::from_fn(|c: usize| sum[c] + value[c]), count + 1)
+                });
+                sum.map(|c: f32| c / count.max(1) as f32)
             };
             let means: Vec<[f32; N]> = ring.iter().map(mean).collect();
             ring.iter().zip(means).for_each(|(i, mean)| texels[*i] = Some(mean));

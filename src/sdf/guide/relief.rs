@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use glam::{Mat4, Vec2, Vec3};
+use rayon::prelude::*;
 
 use super::raster::{Corner, Raster};
 use crate::color::LinearRgb;
@@ -28,6 +29,8 @@ pub(super) struct Relief {
     pub(super) height: f32,
     /// Distance from the axis, metres; whole, where eyes and mouth are holes in the mesh.
     pub(super) distance: Field,
+    /// How far it lies behind its broader surroundings, metres: creases.
+    pub(super) dent: Field,
     /// Share that follows the head: 0..1.
     pub(super) share: Field,
     /// Luminance of what the file paints there.
@@ -81,23 +84,26 @@ impl Relief {
             return None;
         }
         raster.grow(SIDE);
-        let value = |i: usize| raster.texels[i].unwrap_or([depth, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0]);
-        // Both sides are one, so that light from both shows the same face.
-        let even = |pick: &dyn Fn([f32; 7]) -> f32| -> Field {
-            (0..SIDE * SIDE).map(|i| 0.5 * (pick(value(i)) + pick(value(i - i % SIDE + SIDE - 1 - i % SIDE)))).collect()
+        let value = |texel: &Option<[f32; 7]>| texel.unwrap_or([depth, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0]);
+        let field = |pick: &(dyn Fn([f32; 7]) -> f32 + Sync)| -> Field {
+            let field: Field = raster.texels.par_iter().map(|texel| pick(value(texel))).collect();
+            even(&field)
         };
         let luminance = |v: [f32; 7]| {
             let [r, g, b, _] = paint.at([v[2], v[3]]);
             LinearRgb([r, g, b]).luminance()
         };
+        let distance = field(&|v| v[0]);
+        let (broad, fine) = (smoothed(&distance, 7.0, 7.0), smoothed(&distance, 1.0, 1.0));
         Some(Self {
             foot,
             height,
-            distance: even(&|v| v[0]),
-            share: even(&|v| v[1]),
-            painted: even(&luminance),
+            dent: broad.iter().zip(&fine).map(|(b, f)| b - f).collect(),
+            distance,
+            share: field(&|v| v[1]),
+            painted: field(&luminance),
             facet: sides / f32::max(area, 1e-12) / height,
-            normals: (0..SIDE * SIDE).map(|i| Vec3::from_slice(&value(i)[4..]).normalize_or(Vec3::Z)).collect(),
+            normals: raster.texels.par_iter().map(|t| Vec3::from_slice(&value(t)[4..]).normalize_or(Vec3::Z)).collect(),
         })
     }
 
@@ -129,6 +135,12 @@ fn place(foot: Vec3, height: f32, position: Vec3) -> (Vec2, f32) {
     (Vec2::new(0.5 + 0.5 * angle / REACH, 1.0 - out.y / height), out.with_y(0.0).length())
 }
 
+/// Both sides are one, so that light from both shows the same face.
+fn even(field: &[f32]) -> Field {
+    let rows = field.chunks_exact(SIDE);
+    rows.flat_map(|row| row.iter().zip(row.iter().rev()).map(|(a, b)| 0.5 * (a + b))).collect()
+}
+
 /// A field's value between its cells; outside of it that of the edge.
 pub(super) fn sample(field: &[f32], place: Vec2) -> f32 {
     let at = |c: f32| (c * SIDE as f32 - 0.5).clamp(0.0, SIDE as f32 - 1.0);
@@ -154,25 +166,28 @@ pub(super) fn smoothed(field: &[f32], across: f32, down: f32) -> Field {
 
 /// Each row's means of as many cells on both sides; the ends go on beyond the edges.
 fn boxed(field: &mut [f32], reach: usize) {
-    use rayon::prelude::*;
     if reach == 0 {
         return;
     }
     let count = (2 * reach + 1) as f32;
     field.par_chunks_exact_mut(SIDE).for_each(|row| {
-        let old = row.to_vec();
-        let at = |x: isize| old[x.clamp(0, SIDE as isize - 1) as usize];
-        let reach = reach as isize;
-        let mut sum: f32 = (-reach..=reach).map(at).sum();
-        for (x, value) in (0isize..).zip(row) {
+        let ends = [row[0], row[SIDE - 1]].map(|end| std::iter::repeat_n(end, reach + 1));
+        let [before, after] = ends;
+        let old: Vec<f32> = before.skip(1).chain(row.iter().copied()).chain(after).collect();
+        let mut sum: f32 = old[..=2 * reach].iter().sum();
+        for (x, value) in row.iter_mut().enumerate() {
             *value = sum / count;
-            sum += at(x + reach + 1) - at(x - reach);
+            sum += old[x + 2 * reach + 1] - old[x];
         }
     });
 }
 
 fn turned(field: &[f32]) -> Field {
-    (0..SIDE * SIDE).map(|i| field[i % SIDE * SIDE + i / SIDE]).collect()
+    let mut out = vec![0.0; SIDE * SIDE];
+    out.par_chunks_exact_mut(SIDE).enumerate().for_each(|(x, row)| {
+        row.iter_mut().zip(field[x..].iter().step_by(SIDE)).for_each(|(to, from)| *to = *from);
+    });
+    out
 }
 
 /// The parts of a material that are a face, what takes each to the world at rest, and how much of each vertex follows the head.

@@ -76,10 +76,19 @@ impl Thresholds {
 
     /// Thresholds for light from the right and from the left, and the share of normal shading, at a place of the relief.
     pub(super) fn at(&self, place: Vec2) -> [f32; 3] {
-        let mirrored = Vec2::new(1.0 - place.x, place.y);
-        // The mean of both sides is the same on both, to the last bit.
-        let normal = 0.5 * (sample(&self.normal, place) + sample(&self.normal, mirrored));
-        [sample(&self.from_left, mirrored), sample(&self.from_left, place), normal]
+        both(self.side(place), self.side(Vec2::new(1.0 - place.x, place.y)))
+    }
+
+    /// The same at the middles of a row of texels from the character's right to the left, of so many in a picture.
+    pub(super) fn row(&self, y: usize, side: usize) -> impl Iterator<Item = [f32; 3]> + use<> {
+        let middle = |x: usize| Vec2::new(x as f32 + 0.5, y as f32 + 0.5) / side as f32;
+        let row: Vec<[f32; 2]> = (0..side).map(|x| self.side(middle(x))).collect();
+        (0..side).map(move |x| both(row[x], row[side - 1 - x]))
+    }
+
+    /// Threshold for light from the left, and share of normal shading.
+    fn side(&self, place: Vec2) -> [f32; 2] {
+        [sample(&self.from_left, place), sample(&self.normal, place)]
     }
 }
 
@@ -90,6 +99,11 @@ impl Thresholds {
             *normal = normal.max(share);
         }
     }
+}
+
+/// What both sides hold, of a place and of its mirror image: the mean is the same on both, to the last bit.
+fn both([left, normal]: [f32; 2], [right, mirrored]: [f32; 2]) -> [f32; 3] {
+    [right, left, 0.5 * (normal + mirrored)]
 }
 
 fn cell_middle(x: usize, y: usize) -> Vec2 {
@@ -164,15 +178,13 @@ fn drawn(l: &Landmarks, style: FaceStyle, place: Vec2, dark_at: f32) -> f32 {
 
 /// The crease between the lips, thinner towards its ends, where the mesh has it.
 fn mouth(relief: &Relief, l: &Landmarks, dark_at: &mut [f32]) {
-    let fine = smoothed(&relief.distance, 1.0, 1.0);
-    let broad = smoothed(&relief.distance, 7.0, 7.0);
-    let dent: Field = broad.iter().zip(&fine).map(|(b, f)| b - f).collect();
     // Height of the crease along the mouth, smoothed over its neighbours.
     let columns = 25usize;
     let along = |i: usize| i as f32 / (columns - 1) as f32 * l.mouth_half;
     let deepest = |across: f32| {
         let rows = (-8..=8).map(|i| l.mouth + i as f32 * 0.002);
-        rows.max_by(|a, b| at(relief, &dent, across, *a).total_cmp(&at(relief, &dent, across, *b))).unwrap_or(l.mouth)
+        rows.max_by(|a, b| at(relief, &relief.dent, across, *a).total_cmp(&at(relief, &relief.dent, across, *b)))
+            .unwrap_or(l.mouth)
     };
     let heights: Vec<f32> = (0..columns).map(|i| deepest(along(i))).collect();
     let smooth = |i: usize| {
