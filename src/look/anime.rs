@@ -84,7 +84,7 @@ fn self_shadow(scene: &mut Scene) {
     if scene.bone_node(HumanBone::Head).is_some() && materials_of(scene, Role::Face).is_empty() {
         let message = "cast shadows are left out: no part is known to be the face, which those of a hat would darken; \
             say which one is, as in [parts] Head = \"face\"";
-        scene.warnings.push(Warning { pointer: String::new(), message: message.to_owned() });
+        scene.warnings.push(Warning { pointer: "/meshes".to_owned(), message: message.to_owned() });
         return;
     }
     scene.self_shadow = Some(SelfShadow::default());

@@ -6,7 +6,8 @@ crate::part! {
     /// Casters are the parts of the roles [`HairFront`](super::Role::HairFront), [`Skin`](super::Role::Skin) (hands),
     /// [`Cloth`](super::Role::Cloth) and [`Accessory`](super::Role::Accessory), and all of other characters (the first 16 of a
     /// crowd); materials with a [`BangsShadow`](crate::material::BangsShadow) receive it. The texels of its map have a fixed
-    /// size in metres, so that neither zoom nor field of view changes the edge.
+    /// size in metres, so that neither zoom nor field of view changes the edge. Where this light only grazes a surface, what
+    /// lies on it casts none: its shadow would be a smear.
     #[derive(Copy)]
     Bangs {
         /// Where the shadow's light stands, in the frame of the head: angle to the character's left, and height over the
