@@ -67,5 +67,5 @@ fn face_shading(normal_shading: f32, lit: f32, region: f32, strength: f32) -> f3
 // Share of the underside of the jaw at a place: heights of its direction from the middle of the head and of its normal, in the
 // frame of the face. Nose and lips stand too high.
 fn face_underside(place: f32, normal: f32) -> f32 {
-    return smoothstep(0.6, 0.8, -place) * smoothstep(0.1, 0.4, -normal);
+    return smoothstep(0.6, 0.8, -place) * smoothstep(0.4, 0.65, -normal);
 }
