@@ -12,7 +12,8 @@ fn vs_main(in: VertexInput) -> Varying {
     let v = vertex_of(in);
     let m = &material.fluff;
     var out = surface_varying(v);
-    out.level = f32(v.extra) / fluff_shells(m.length_m, frame.px_per_m, f32(m.shells));
+    // In the middles of the steps: the skin itself is drawn already.
+    out.level = (f32(v.extra) + 0.5) / fluff_shells(m.length_m, frame.px_per_m, f32(m.shells));
     let phase = fract(frame.time_s / m.wind_period_s);
     let bend = out.level * out.level;
     out.world_position = out.world_position + out.normal * m.length_m * out.level - vec3f(0.0, m.gravity_m * bend, 0.0)
