@@ -171,8 +171,7 @@ fn boxed(field: &mut [f32], reach: usize) {
     }
     let count = (2 * reach + 1) as f32;
     field.par_chunks_exact_mut(SIDE).for_each(|row| {
-        let ends = [row[0], row[SIDE - 1]].map(|end| std::iter::repeat_n(end, reach + 1));
-        let [before, after] = ends;
+        let [before, after] = [row[0], row[SIDE - 1]].map(|end| std::iter::repeat_n(end, reach + 1));
         let old: Vec<f32> = before.skip(1).chain(row.iter().copied()).chain(after).collect();
         let mut sum: f32 = old[..=2 * reach].iter().sum();
         for (x, value) in row.iter_mut().enumerate() {
