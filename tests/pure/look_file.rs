@@ -179,6 +179,24 @@ fn a_template_comes_back() {
     assert_eq!((scene.bangs, scene.eyes_through), (before.bangs, before.eyes_through));
 }
 
+/// Nobody whose face is not known takes cast shadows in the anime look; a warning says so, and its advice brings them back.
+#[test]
+fn cast_shadows_want_a_known_face() {
+    let mut unknown = heroine();
+    let name = {
+        let of_face = |m: &&mut hikage::scene::Mesh| m.primitives.iter().any(|p| p.role == Role::Face);
+        let face = unknown.meshes.iter_mut().find(of_face).expect("a face");
+        face.primitives.iter_mut().filter(|p| p.role == Role::Face).for_each(|p| p.role = Role::Other);
+        face.name.clone()
+    };
+    let mut told = unknown.clone();
+    hikage::Look::Anime(hikage::Anime::default()).apply(&mut unknown);
+    assert!(unknown.self_shadow.is_none() && unknown.materials.iter().all(|m| m.cast_shadow.is_none()));
+    assert!(unknown.warnings.iter().any(|w| w.message.contains("no part is known to be the face")));
+    apply(&format!("base = \"anime\"\n[parts]\n{name} = \"face\""), &mut told).expect("a good look");
+    assert!(told.self_shadow.is_some() && told.warnings.iter().all(|w| !w.message.contains("no part is known")));
+}
+
 /// Every mistake names the file, the place, and the nearest thing that exists.
 #[test]
 fn mistakes_are_named_with_what_was_meant() {

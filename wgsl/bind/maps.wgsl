@@ -29,12 +29,13 @@ fn bangs_from_world(actor: u32, position: vec3f) -> vec3f {
     return vec3f(dot(a.bangs_world_row_u, p), dot(a.bangs_world_row_v, p), dot(a.bangs_world_row_depth, p));
 }
 
-// By how much a receiver with this unit normal, world space, is moved towards the light of the map: not where it faces that, and a
-// tenth of the map's width where light only grazes it. There each texel is a long step, and the shadow of a lock a smear.
-fn bangs_moved(actor: u32, normal: vec3f) -> vec3f {
+// By how much depth a receiver with this unit normal, world space, is moved towards the light of the map: not where it faces that,
+// and a tenth of the map's width where light only grazes it. There each texel is a long step, and the shadow of a lock a smear.
+fn bangs_nearer(actor: u32, normal: vec3f) -> f32 {
     let away = actors[actor].bangs_world_row_depth.xyz;
     let facing = -dot(normal, away) / max(length(away), 1e-6);
-    return vec3f(0.0, 0.0, -0.05 * (1.0 - smoothstep(0.0, 0.4, facing)));
+    // The range of depth is twice the width.
+    return 0.05 * (1.0 - smoothstep(0.0, 0.4, facing));
 }
 
 // Place of a point of the world in the shadow map of an actor.

@@ -1,5 +1,5 @@
 // Shadow of the bangs.
-import package::bind::maps::{BANGS_LAYER, LIDS_LAYER, bangs_from_character, bangs_lit, bangs_moved};
+import package::bind::maps::{BANGS_LAYER, LIDS_LAYER, bangs_from_character, bangs_lit, bangs_nearer};
 import package::bind::shown::shown;
 import package::bind::surface::{Border, Surface};
 import package::bind::varying::Varying;
@@ -18,7 +18,8 @@ const WHITE_SHADE: vec3f = vec3f(0.82, 0.8, 0.9);
 
 fn bangs_shadow_vary(v: Vertex, given: Varying) -> Varying {
     var out = given;
-    out.bangs = bangs_from_character(v.actor, v.position) + bangs_moved(v.actor, out.normal);
+    out.bangs = bangs_from_character(v.actor, v.position);
+    out.bangs.z -= bangs_nearer(v.actor, out.normal);
     return out;
 }
 

@@ -29,7 +29,7 @@ impl Thresholds {
         let features = smoothed(&relief.distance, (fine / 0.011 * 2.5).min(13.0) * degree, fine * row);
         let share = smoothed(&relief.share, 2.0 * degree, 0.01 * row);
         // Normals of few triangles shade in patches: there the map reaches farther back.
-        let back = ((fine - 0.011) / 0.03).clamp(0.0, 1.0) * 15.0;
+        let farther_deg = ((fine - 0.011) / 0.03).clamp(0.0, 1.0) * 15.0;
         let cells = (0..SIDE * SIDE).into_par_iter();
         let both: Vec<(f32, f32)> = cells
             .map(|i| {
@@ -50,7 +50,7 @@ impl Thresholds {
                     dark_at = cheek_light(landmarks, place, dark_at);
                     dark_at = drawn(landmarks, style, place, dark_at);
                 }
-                let behind = fade(77.0 + back, 100.0 + back, turned.to_degrees().abs());
+                let behind = fade(77.0 + farther_deg, 100.0 + farther_deg, turned.to_degrees().abs());
                 // Nothing follows the head there.
                 let under = fade(0.8, 0.6, place.y * (1.0 + MARGIN) / MARGIN);
                 // Hair that is one mesh with the face begins where a forehead ends.
