@@ -9,7 +9,7 @@ use crate::color::LinearRgb;
 use crate::material::{
     AlphaMode, Authored, BangsShadow, CastShadow, DepthRim, Diamond, FacePaint, FaceShadow, Fire, Fluff, FurDetail,
     Gem, Glow, Highlight, Layer, Material, Outline, OutlineTint, OutlineWidth, RampMaps, ShadeRamp, Shading,
-    ShapedHighlight, Sparkle, Stocking, Substance, Transition,
+    ShapedHighlight, Sparkle, Stocking, Substance, TintSource, Transition,
 };
 use crate::scene::{Bangs, Bloom, EyesThrough, HumanBone, Post, Role, Scene, SelfShadow, Warning};
 use crate::sdf::{FaceMap, FaceStyle, Feature, Guide, Sides};
@@ -53,12 +53,22 @@ const BLACK: f32 = 0.02;
 /// Lines in a dark tone of what they surround: instead of black ones, and round a character whose file knows none.
 fn outlines(scene: &mut Scene) {
     if scene.materials.iter().any(|m| m.outline.is_some()) {
-        let black = |o: &&mut Outline| o.color.iter().all(|c| *c < BLACK);
-        for outline in scene.materials.iter_mut().filter_map(|m| m.outline.as_mut()).filter(black) {
-            outline.tint = Some(OutlineTint::default());
-        }
-        // A pen has one width, however near the camera comes.
         for outline in scene.materials.iter_mut().filter_map(|m| m.outline.as_mut()) {
+            if outline.color.iter().all(|c| *c < BLACK) {
+                outline.tint = Some(OutlineTint::default());
+            } else if outline.lighting_mix == 1.0 {
+                // A drawn line keeps in shade the colour that it has in light.
+                let factor = outline.color;
+                let kept = OutlineTint {
+                    from: TintSource::Lit,
+                    gamma: 1.0,
+                    saturation: 1.0,
+                    factor,
+                    ..OutlineTint::default()
+                };
+                outline.tint = Some(kept);
+            }
+            // A pen has one width, however near the camera comes.
             outline.clamp_px.get_or_insert([0.0, 4.0]);
         }
         return;
@@ -348,16 +358,19 @@ fn safe_guide(scene: &mut Scene, index: usize, style: FaceStyle, before: &[[f32;
         scene.warnings.push(Warning { pointer, message });
         return None;
     }
-    for found in guide.contrasts(&toon, shades).into_iter().filter(|c| !c.is_kept()) {
+    for feature in Feature::ALL {
+        let contrast = |guide: &Guide| guide.contrast(feature, &toon, shades).filter(|c| !c.is_kept());
+        let Some(found) = contrast(&guide) else { continue };
         // As little as serves.
         for share in [0.25, 0.5, 0.75, 1.0] {
-            guide.leave(found.feature, share);
-            let now = guide.contrasts(&toon, shades);
-            if now.iter().all(|c| c.feature != found.feature || c.is_kept()) {
+            guide.leave(feature, share);
+            if contrast(&guide).is_none() {
                 break;
             }
         }
-        let name = match found.feature {
+        let name = match feature {
+            Feature::Eyes => "eyes",
+            Feature::Brows => "brows",
             Feature::Nose => "nose",
             Feature::Mouth => "mouth",
         };

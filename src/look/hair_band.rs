@@ -11,13 +11,16 @@ use super::band_marks::{CELLS, LEVELS, RING_CELLS, VARIANTS, paint, smooth};
 use super::tone::Tone;
 use crate::material::{Highlight, TextureRef};
 use crate::scene::painted::Painted;
-use crate::scene::{Filter, Primitive, Sampler, Scene, Texture, Wrap};
+use crate::scene::{Filter, Image, Primitive, Sampler, Scene, Texture, Warning, Wrap};
 
 /// Angle from above of the band's middle, radians; light and view from the front move it up from there.
 const MIDDLE: f32 = 1.05;
 /// Angle over which the marks' picture reaches from its upper to its lower edge, radians: the band is 6 % of the head's height,
 /// and there are none beyond.
 const REACH: f32 = 0.525;
+/// How far the marks move up their picture as light, and as the viewer, comes to the front.
+const LIGHT_V: f32 = 0.18;
+const VIEW_V: f32 = 0.18;
 /// Widest lock that has one mark, radians round the head; what is wider is a cap of many.
 const WIDEST: f32 = 0.9;
 /// Angle from the front from which marks fade, and at which they have gone, radians: over the temples.
@@ -37,8 +40,11 @@ struct Place {
     distance: f32,
 }
 
-/// Gives these hair materials a band. Parts that already use two sets of texture coordinates, and hair of a few facets, are
-/// left out.
+/// Share of the hair before and above the ears that a band may cover: more is no highlight.
+const MOST_COVERED: f32 = 0.2;
+
+/// Gives these hair materials a band. Parts that already use two sets of texture coordinates, hair of a few facets, and hair
+/// of which the band would cover much, are left out with a warning.
 pub(super) fn add(scene: &mut Scene, materials: &BTreeSet<usize>, style: BandStyle) {
     let Some((low, high)) = scene.face_box(None) else { return };
     // A little behind and above the middle of the face lies that of the skull.
@@ -46,36 +52,78 @@ pub(super) fn add(scene: &mut Scene, materials: &BTreeSet<usize>, style: BandSty
     let middle = (low + high) * 0.5 + Vec3::new(0.0, 0.1, 0.0) * size.y;
     let parts = || scene.meshes.iter().flat_map(|m| &m.primitives);
     let mut fit = materials.clone();
+    let mut warnings = Vec::new();
     for index in materials {
         let of = || parts().filter(|p| p.material == *index);
         let triangles: usize = of().map(|p| p.indices.len() / 3).sum();
-        if triangles < LEAST_TRIANGLES || of().any(|p| p.uvs.len() > 1) {
-            fit.remove(index);
-        }
+        let why = if of().any(|p| p.uvs.len() > 1) {
+            "its second set of texture coordinates is taken".to_owned()
+        } else if triangles < LEAST_TRIANGLES {
+            format!("{triangles} triangles are too few for its marks; expected {LEAST_TRIANGLES}")
+        } else {
+            continue;
+        };
+        fit.remove(index);
+        warnings.push((*index, why));
     }
     let tones: BTreeMap<usize, Light> = fit.iter().map(|index| (*index, light(scene, *index))).collect();
-    let wrapped = wrap(scene, &fit, middle, size.y, style);
+    let marks = paint(style);
+    let mut wrapped = wrap(scene, &fit, middle, size.y, style);
+    wrapped.retain(|material| {
+        let share = covered(scene, *material, &marks, middle);
+        if share > MOST_COVERED {
+            warnings.push((*material, format!("it would cover {:.0} % of the hair", share * 100.0)));
+        }
+        share <= MOST_COVERED
+    });
+    for (material, why) in warnings {
+        let message = format!("hair band left out: {why}");
+        scene.warnings.push(Warning { pointer: format!("/materials/{material}"), message });
+    }
     if wrapped.is_empty() {
         return;
     }
-    scene.images.push(paint(style));
+    scene.images.push(marks);
     let clamp = Wrap::Clamp;
     let sampler =
         Sampler { wrap_u: clamp, wrap_v: clamp, mag: Filter::Linear, min: Filter::Linear, mip: Some(Filter::Nearest) };
     scene.textures.push(Texture { image: scene.images.len() - 1, sampler });
     let map = TextureRef { texture: scene.textures.len() - 1, uv_set: 1, ..TextureRef::default() };
     for material in wrapped {
-        let Some(Light { color, strength }) = tones.get(&material).copied() else { continue };
+        let Some(Light { color, strength, in_shade }) = tones.get(&material).copied() else { continue };
         scene.materials[material].highlight = Some(Highlight {
             map,
             color,
             strength,
-            light_v: 0.18,
-            view_v: 0.18,
-            in_shade: 0.04,
+            light_v: LIGHT_V,
+            view_v: VIEW_V,
+            in_shade,
             ..Highlight::default()
         });
     }
+}
+
+/// Share of the hair of a material before and above the ears that the marks cover, for light and view from the front.
+fn covered(scene: &mut Scene, material: usize, marks: &Image, middle: Vec3) -> f32 {
+    let (mut all, mut covered) = (0.0, 0.0);
+    scene.for_each_hair(|part, matrix| {
+        let Some(set) = part.uvs.get(1).filter(|_| part.material == material) else { return };
+        for t in part.indices.chunks_exact(3) {
+            let [a, b, c] = [0, 1, 2].map(|i| matrix.transform_point3(Vec3::from(part.positions[t[i] as usize])));
+            let at = (a + b + c) / 3.0 - middle;
+            let area = (b - a).cross(c - a).length();
+            if at.z < 0.0 || at.y < 0.0 || !area.is_finite() {
+                continue;
+            }
+            let [u, v] = [0, 1].map(|k| t.iter().map(|i| set[*i as usize][k]).sum::<f32>() / 3.0);
+            let (x, y) = (u * marks.width as f32, (v + LIGHT_V + VIEW_V) * marks.height as f32);
+            let place = |c: f32, side: u32| (c.max(0.0) as usize).min(side as usize - 1);
+            let texel = place(y, marks.height) * marks.width as usize + place(x, marks.width);
+            all += area;
+            covered += area * f32::from(marks.pixels[texel * 4]) / 255.0;
+        }
+    });
+    if all > 0.0 { covered / all } else { 0.0 }
 }
 
 /// What light makes of a material's hair.
@@ -83,6 +131,7 @@ pub(super) fn add(scene: &mut Scene, materials: &BTreeSet<usize>, style: BandSty
 struct Light {
     color: [f32; 3],
     strength: f32,
+    in_shade: f32,
 }
 
 /// A lighter, less saturated tone of the hair; on black hair a blue sheen, on white hair a faint one, and little where the
@@ -93,7 +142,7 @@ fn light(scene: &Scene, material: usize) -> Light {
     let mut colors: Vec<([f32; 3], f32)> = parts.flat_map(|p| painted.of_triangles(p).collect::<Vec<_>>()).collect();
     let area: f32 = colors.iter().map(|(_, a)| a).sum();
     if area.is_nan() || area <= 0.0 {
-        return Light { color: [1.0; 3], strength: 0.0 };
+        return Light { color: [1.0; 3], strength: 0.0, in_shade: 0.0 };
     }
     let mean = colors.iter().fold(Vec3::ZERO, |sum, (c, a)| sum + Vec3::from(*c) * (*a / area));
     let hair = Tone::of(mean.to_array());
@@ -113,11 +162,12 @@ fn light(scene: &Scene, material: usize) -> Light {
     let pale = smooth(0.78, 0.95, hair.lightness);
     let colored =
         Tone { lightness: (hair.lightness + 0.17).min(0.985), chroma: hair.chroma * 0.72, ..hair.towards(1.6, 0.12) };
-    let sheen = Tone { lightness: (hair.lightness + 0.17).max(0.43), chroma: 0.045, hue_rad: -1.5 };
+    let sheen = Tone { lightness: (hair.lightness + 0.22).max(0.43), chroma: 0.05, hue_rad: -1.5 };
     let mix = |a: [f32; 3], b: [f32; 3], t: f32| std::array::from_fn(|c| a[c] + (b[c] - a[c]) * t);
     let color = mix(colored.to_linear(), sheen.to_linear(), dark);
     let strength = (0.92 - 0.3 * pale) * if is_painted { 0.3 } else { 1.0 };
-    Light { color, strength }
+    // Black hair in shade is one mass without it.
+    Light { color, strength, in_shade: 0.04 + 0.3 * dark }
 }
 
 /// Adds the coordinates as the second set. Gives the materials that have them.

@@ -25,7 +25,7 @@ const ROSY_LAVENDER: [f32; 3] = [0.6, 0.51, 0.7];
 const BLUE: f32 = -1.5;
 const ROSE: f32 = -0.1;
 
-/// Gives a hue to grey shade, and to skin a warm one.
+/// Gives a hue to grey shade, to skin a warm one, and to black hair a light that its shade is told from.
 pub(super) fn apply(scene: &mut Scene) {
     let role = |roles: &[Role]| -> BTreeSet<usize> { roles.iter().flat_map(|r| materials_of(scene, *r)).collect() };
     let others = role(&[Role::Hair, Role::HairFront, Role::Cloth, Role::Accessory, Role::Other]);
@@ -33,6 +33,9 @@ pub(super) fn apply(scene: &mut Scene) {
     // A palette serves a whole character, skin among the rest.
     let skin: BTreeSet<usize> = of_body.difference(&others).copied().collect();
     let mixed: BTreeSet<usize> = of_body.intersection(&others).copied().collect();
+    let hair = role(&[Role::Hair, Role::HairFront]);
+    let of_more = role(&[Role::Face, Role::Skin, Role::Cloth, Role::Accessory, Role::Other]);
+    let hair: Vec<usize> = hair.difference(&of_more).copied().collect();
     let kept = role(&[Role::Eye, Role::EyeWhite, Role::EyeHighlight, Role::Lash, Role::Brow, Role::Mouth]);
     let of_file = skin.iter().find_map(|index| {
         let toon = unprepared_or_not(&scene.materials[*index])?;
@@ -67,6 +70,28 @@ pub(super) fn apply(scene: &mut Scene) {
             toon.shade_texture = material.base.texture;
         }
     }
+    for index in hair {
+        let Some(Mean { tone, .. }) = mean(scene, index) else { continue };
+        let lifted = lifted_black(tone);
+        scene.materials[index].base.color.iter_mut().zip(lifted).for_each(|(c, by)| *c *= by);
+    }
+}
+
+/// Oklab lightness below which hair is black: its shade would not be told from its light.
+const BLACK: f32 = 0.3;
+
+/// What the lit colour of black hair is multiplied by: painters mix it lighter and cooler than its shade.
+fn lifted_black(lit: Tone) -> [f32; 3] {
+    if lit.lightness >= BLACK {
+        return [1.0; 3];
+    }
+    let light = Tone {
+        lightness: BLACK,
+        chroma: lit.chroma.max(0.015),
+        hue_rad: if lit.chroma < 0.015 { BLUE } else { lit.hue_rad },
+    };
+    let (from, to) = (lit.to_linear(), light.to_linear());
+    std::array::from_fn(|c| (to[c] / from[c].max(1e-3)).clamp(1.0, 2.4))
 }
 
 /// The shading of a material whose shade no texture of its own paints.
@@ -163,6 +188,18 @@ mod tests {
         assert!((r - 190).abs() < 14 && (g - 196).abs() < 14 && (b - 226).abs() < 14, "{r} {g} {b}");
         let [r, _, b] = shaded("#1a1a1a", cloth_shade);
         assert!(b > r && r > 8, "{r} {b}");
+    }
+
+    #[test]
+    fn black_hair_is_lifted_and_no_other() {
+        let lit = |hex: &str| Tone::of(Srgb::from_hex(hex).unwrap().to_linear().0);
+        let black = lit("#1c1c1e");
+        let by = lifted_black(black);
+        assert!(by.iter().all(|by| (1.3..=2.4).contains(by)) && by[2] > by[0], "{by:?}");
+        let [r, g, b] = black.to_linear();
+        let lifted = Tone::of([r * by[0], g * by[1], b * by[2]]).lightness;
+        assert!(lifted <= BLACK + 1e-3, "{lifted}");
+        assert_eq!(lifted_black(lit("#3a2a22")), [1.0; 3]);
     }
 
     #[test]

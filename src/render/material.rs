@@ -192,7 +192,7 @@ impl Composition {
         let has_strips = self.has("strips");
         options.set("vertex_color", is_surface && vertex_colors && !has_strips);
         options.set("strip_colors", is_surface && vertex_colors && has_strips);
-        options.set("uv_transforms", self.driven_uvs || slots().any(moved));
+        options.set("uv_transforms", is_surface && (self.driven_uvs || slots().any(moved)));
         Recipe {
             pass,
             sections: kept.iter().map(|c| c.about).collect(),

@@ -144,7 +144,8 @@ impl Recipe {
         self
     }
 
-    fn key(&self) -> String {
+    /// Recipes that are linked to the same have the same.
+    pub fn key(&self) -> String {
         let mut key = self.pass.to_owned();
         let sections = self.sections.iter().map(|a| a.key);
         for word in sections.chain(["with"]).chain(self.options.iter()).chain(self.textures.iter().map(|t| &*t.name)) {

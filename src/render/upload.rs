@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use super::character::{self, Character, CharacterData};
-use super::draw_list::{self, casts_on_face, through_order};
+use super::draw_list::{self, Draw, Pipelines, casts_on_face, through_order};
 use super::geometry::Geometry;
 use super::looks::{Looks, bound_textures, stride};
 use super::material::{self, Composition, Source};
@@ -15,8 +15,9 @@ use super::pass::shadow::{self, ShadowFit, ShadowMap};
 use super::pass::{Picture, Sight};
 use super::skin_layers::SkinPart;
 use super::textures::{self, TextureSet};
+use super::variants::Request;
 use super::{Renderer, bind, uv_metric};
-use crate::eye::Eyes;
+use crate::eye::{EyeRow, Eyes};
 use crate::hair::holds_flow;
 use crate::material::{Encoding, Generated, MAX_SHELLS, Material, Surroundings, out_of_range};
 use crate::motion::{Driven, Skeleton};
@@ -34,13 +35,11 @@ impl Renderer {
     /// of a material is out of its range.
     pub fn upload(&self, scene: &Scene) -> Result<Character> {
         let gpu = self.gpu().clone();
-        let looks = self.looks_of(scene)?;
-        gpu.scoped(|| {
-            let borrow = |index| scene.images.get(index).map(Cow::Borrowed);
-            let mut textures = TextureSet::new(&gpu, &scene.textures, &looks.uses(), &scene.face_maps, borrow)?;
-            textures.generate(&self.variants, looks.generated())?;
-            self.upload_with(scene, looks, &textures)
-        })?
+        let described = self.describe(scene)?;
+        let borrow = |index| scene.images.get(index).map(Cow::Borrowed);
+        let textures =
+            self.textures(&described, |uses| TextureSet::new(&gpu, &scene.textures, uses, &scene.face_maps, borrow))?;
+        gpu.scoped(|| self.upload_with(scene, described, textures))?
     }
 
     /// [`Renderer::upload`] for a scene whose pictures nobody needs afterwards: each image is emptied once it is on the
@@ -50,22 +49,33 @@ impl Renderer {
     /// Those of [`Renderer::upload`].
     pub fn upload_and_empty_images(&self, scene: &mut Scene) -> Result<Character> {
         let gpu = self.gpu().clone();
-        let looks = self.looks_of(scene)?;
-        gpu.scoped(|| {
-            let Scene { textures, images, face_maps, .. } = scene;
-            let take = |index: usize| {
-                let image = images.get_mut(index)?;
-                let pixels = std::mem::take(&mut image.pixels);
-                Some(Cow::Owned(Image { pixels, ..image.clone() }))
-            };
-            let mut textures = TextureSet::new(&gpu, textures, &looks.uses(), face_maps, take)?;
-            textures.generate(&self.variants, looks.generated())?;
-            self.upload_with(scene, looks, &textures)
-        })?
+        let described = self.describe(scene)?;
+        let Scene { textures, images, face_maps, .. } = scene;
+        let take = |index: usize| {
+            let image = images.get_mut(index)?;
+            let pixels = std::mem::take(&mut image.pixels);
+            Some(Cow::Owned(Image { pixels, ..image.clone() }))
+        };
+        let textures = self.textures(&described, |uses| TextureSet::new(&gpu, textures, uses, face_maps, take))?;
+        gpu.scoped(|| self.upload_with(scene, described, textures))?
     }
 
-    /// What the materials of a scene are made of.
-    fn looks_of(&self, scene: &Scene) -> Result<Described> {
+    /// Makes the textures of a scene, and meanwhile its pipelines.
+    fn textures(
+        &self,
+        of: &Described,
+        make: impl FnOnce(&[(usize, Encoding)]) -> Result<TextureSet> + Send,
+    ) -> Result<TextureSet> {
+        let requests = || of.requests.iter().flat_map(Pipelines::iter);
+        // Error scopes belong to threads.
+        let textures = || self.gpu().scoped(|| make(&of.uses()));
+        let (textures, pipelines) = rayon::join(textures, || self.variants.get_all(requests()));
+        pipelines?;
+        textures?
+    }
+
+    /// What a scene is made of.
+    fn describe(&self, scene: &Scene) -> Result<Described> {
         scene.check()?;
         let faults = [
             ("bangs", scene.bangs.and_then(|mut s| out_of_range(&mut s))),
@@ -119,23 +129,52 @@ impl Renderer {
             composition.check(&of.material.name)?;
             compositions.push(composition);
         }
-        Ok(Described { sources, compositions, metres_per_uv, uv_boxes, eyes, driven })
-    }
-
-    fn upload_with(&self, scene: &Scene, described: Described, textures: &TextureSet) -> Result<Character> {
-        let geometry = Geometry::gather(scene, &described.eyes);
+        let geometry = Geometry::gather(scene, &eyes);
         if let Some((material, fault)) = geometry.faults.first() {
             let what = format!("material {material} {:?}, hair.direction", scene.materials[*material].name);
             let message = format!("is mesh, but a part of it {fault}; please choose uv-v, uv-u or a flow map");
             return Err(Error::Argument { what, message });
         }
+        let has_stencil = self.output.depth_format(self.gpu()).has_stencil_aspect();
+        let draws = draw_list::draws(scene, &geometry.parts, has_stencil);
+        let environment = scene.lights.as_ref().is_some_and(|lights| lights.environment.is_some());
+        let sight = Sight { hdr: scene.post.is_some(), environment, ..Sight::default() };
+        let picture = Picture::new(self.gpu(), self.output, sight);
+        let requests = draw_list::requests(scene, &draws, &compositions, &picture);
+        Ok(Described {
+            sources,
+            compositions,
+            metres_per_uv,
+            uv_boxes,
+            eyes: eyes.rows,
+            driven,
+            geometry,
+            draws,
+            sight,
+            requests,
+        })
+    }
+
+    fn upload_with(&self, scene: &Scene, described: Described, mut textures: TextureSet) -> Result<Character> {
+        textures.generate(&self.variants, described.generated())?;
         let gpu = self.gpu().clone();
         let buffer = |label, contents: &[u8], usage| bind::filled(&gpu, label, contents, usage);
         use wgpu::BufferUsages as U;
-        let Described { sources, compositions, metres_per_uv, uv_boxes, eyes, driven } = described;
+        let Described {
+            sources,
+            compositions,
+            metres_per_uv,
+            uv_boxes,
+            eyes,
+            driven,
+            geometry,
+            draws,
+            sight,
+            requests,
+        } = described;
         let places = Arc::clone(&self.variants.shaders.places);
         let stride = stride(&places);
-        let bound = compositions.iter().map(|c| bound_textures(scene, c, textures)).collect();
+        let bound = compositions.iter().map(|c| bound_textures(scene, c, &textures)).collect();
         let looks = Looks {
             numbers: buffer(
                 "materials",
@@ -152,7 +191,7 @@ impl Renderer {
             face_maps: scene.face_maps.iter().map(FaceMap::without_texels).collect(),
             metres_per_uv,
             uv_boxes,
-            eyes: eyes.rows,
+            eyes,
             driven,
             self_shadow: scene.self_shadow.is_some(),
         };
@@ -170,13 +209,9 @@ impl Renderer {
         }
         let shadow = shadow_fit(scene, &geometry);
         let source = DeformSource::new(&gpu, &geometry.deform_input());
-        let draws = draw_list::draws(scene, &geometry.parts, self.output.depth_format(&gpu).has_stencil_aspect());
         let drawn = || draws.iter().map(|d| &looks.compositions[d.material]);
         let has_inner_lines = drawn().any(|c| c.needs("prepass_surfaces"));
         let cuts_move = drawn().any(|c| c.takes_part("uv"));
-        let environment = scene.lights.as_ref().is_some_and(|lights| lights.environment.is_some());
-        let sight = Sight { hdr: scene.post.is_some(), environment, ..Sight::default() };
-        let requests = draw_list::requests(scene, &draws, &looks.compositions, &Picture::new(&gpu, self.output, sight));
         let has_prepass = requests.iter().any(|p| p.prepass.is_some());
         let skin = draws.iter().filter(|d| looks.compositions[d.material].is_on("skin_screen_space"));
         let scatter =
@@ -391,14 +426,19 @@ fn measured(scene: &Scene) -> Scene {
     }
 }
 
-/// Materials of a scene, before anything of them is on the GPU.
+/// What a scene is made of, before anything of it is on the GPU.
 struct Described {
     sources: Vec<Material>,
     compositions: Vec<Composition>,
     metres_per_uv: Vec<[f32; 2]>,
     uv_boxes: Vec<[[f32; 2]; 2]>,
-    eyes: Eyes,
+    eyes: Vec<Vec<EyeRow>>,
     driven: Vec<Driven>,
+    geometry: Geometry,
+    draws: Vec<Draw>,
+    /// What pictures of it are first made for, and what then shows each draw.
+    sight: Sight<'static>,
+    requests: Vec<Pipelines<Request>>,
 }
 
 impl Described {

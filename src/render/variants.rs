@@ -1,6 +1,6 @@
 //! Pipelines: one maker for every pass, keyed by what the shader is linked from and by fixed state, on all cores.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::mem::offset_of;
 use std::sync::{Arc, Mutex, OnceLock};
 
@@ -108,11 +108,14 @@ impl Variants {
     /// # Errors
     /// Those of [`Variants::get`].
     pub fn get_all<'a>(&self, requests: impl IntoIterator<Item = &'a Request>) -> Result<()> {
-        let requests: Vec<&Request> = requests.into_iter().collect();
+        // Two cores must not link the same.
+        let mut recipes: BTreeMap<String, Vec<&Request>> = BTreeMap::new();
+        requests.into_iter().for_each(|r| recipes.entry(r.recipe.key()).or_default().push(r));
+        let recipes: Vec<Vec<&Request>> = recipes.into_values().collect();
         let linked: Vec<Arc<Linked>> =
-            requests.par_iter().map(|r| self.shaders.linked(&r.recipe)).collect::<Result<_>>()?;
+            recipes.par_iter().map(|of| self.shaders.linked(&of[0].recipe)).collect::<Result<_>>()?;
         let mut wanted = HashMap::new();
-        for (request, linked) in requests.into_iter().zip(&linked) {
+        for (request, linked) in recipes.iter().zip(&linked).flat_map(|(of, l)| of.iter().map(move |r| (*r, l))) {
             wanted.insert((Arc::clone(&linked.text), request.state.clone()), (request, linked));
         }
         wanted.retain(|key, _| !lock(&self.made).contains_key(key));

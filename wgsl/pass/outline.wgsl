@@ -12,7 +12,8 @@ import package::lib::outline::{outline_bounded, outline_clip, outline_px_per_m, 
 import package::lib::shade_ramp::part_number;
 import package::look::shade_ramp::ramp_color;
 import package::material::{
-    material, outline_part_ids, outline_width_mask, outline_width_mask_sampler, stage_line, stage_samples, stage_vertex_uv,
+    material, outline_part_ids, outline_width_mask, outline_width_mask_sampler, stage_line, stage_samples, stage_vanish,
+    stage_vertex_uv,
 };
 
 @vertex
@@ -58,38 +59,39 @@ fn fs_main(in: Varying) -> Pixel {
 
 fn line(in: Varying) -> vec4f {
     let m = &material.outline;
-    var surface = vec4f(1.0);
-    @if(shaded) {
+    // The colour of the surface or of the line, and the surface's alpha.
+    var given = vec4f(1.0);
+    @if(outline_tint) given = tinted(in);
+    @if(!outline_tint && shaded) {
         let d = drawn(in, true);
-        surface = vec4f(d.color, d.alpha);
+        given = vec4f(d.color, d.alpha);
     }
-    var color = tinted(in);
-    @if(!outline_tint) color = mtoon_outline(m.color, surface.rgb, m.lighting_mix);
+    var color = given.rgb;
+    @if(!outline_tint) color = mtoon_outline(m.color, given.rgb, m.lighting_mix);
     // 1 between vertices of 1, whatever rounding makes of it: nothing behind a whole line shows.
     var cover = saturate(in.line_cover * 1.0001);
-    @if(blend) cover *= surface.a;
+    @if(blend) cover *= given.a;
     return vec4f(encoded(color) * cover, cover);
 }
 
-// The colour of the surface in full light or in full shade, darkened and turned.
-fn tinted(in: Varying) -> vec3f {
-    @if(!outline_tint) return vec3f(0.0);
-    @if(outline_tint) {
-        let m = &material.outline;
-        let s = surface_of(in, true);
-        var source = s.lit;
-        @if(toon && lit && outline_from_shade) source = s.shade;
-        @if(toon && lit && outline_from_shade && shade_ramp) source = ramp_color(s.uv, s.lit, s.shade, 0.0);
-        var color = outline_tinted(source, m.tint_gamma, m.shift, m.tint_factor);
-        @if(outline_part_ids) {
-            // The texel itself: numbers are not filtered.
-            let size = vec2f(textureDimensions(outline_part_ids));
-            let at = fract(texture_uv(s.uv, m.part_ids_uv));
-            let part = part_number(textureLoad(outline_part_ids, vec2i(at * size), 0).r);
-            if part >= 0 {
-                color = m.parts[part].rgb;
-            }
+// The colour of the surface in full light or in full shade, darkened and turned; and its alpha.
+@if(outline_tint)
+fn tinted(in: Varying) -> vec4f {
+    stage_vanish(in);
+    let m = &material.outline;
+    let s = surface_of(in, true);
+    var source = s.lit;
+    @if(toon && lit && outline_from_shade) source = s.shade;
+    @if(toon && lit && outline_from_shade && shade_ramp) source = ramp_color(s.uv, s.lit, s.shade, 0.0);
+    var color = outline_tinted(source, m.tint_gamma, m.shift, m.tint_factor);
+    @if(outline_part_ids) {
+        // The texel itself: numbers are not filtered.
+        let size = vec2f(textureDimensions(outline_part_ids));
+        let at = fract(texture_uv(s.uv, m.part_ids_uv));
+        let part = part_number(textureLoad(outline_part_ids, vec2i(at * size), 0).r);
+        if part >= 0 {
+            color = m.parts[part].rgb;
         }
-        return color * arriving_light(in.world_position);
     }
+    return vec4f(color * arriving_light(in.world_position), s.alpha);
 }

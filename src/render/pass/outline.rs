@@ -19,14 +19,20 @@ pub(crate) fn request(picture: &Picture<'_>, of: &Composition, material: &Materi
     let vanishes = of.any(|c| c.takes_part("vanish") && !(dithers && c.takes_part("samples")));
     let [is_mixed, is_tinted, is_masked_wide] =
         ["outline_mixed", "outline_tint", "outline_width_mask"].map(|option| of.is_on(option));
-    // The surface's shading is needed: for its colour, its alpha or its cut-outs.
-    let shaded = is_mixed || vanishes || of.alpha != AlphaMode::Opaque;
+    // The surface's shading is needed: for its colour, or beside a plain one for its alpha and its cut-outs.
+    let shaded = is_mixed || !is_tinted && (vanishes || of.alpha != AlphaMode::Opaque);
     // A plain colour needs nothing of the surface but the UVs of its mask: fewer pipelines.
     let is_plain = !shaded && !is_tinted;
     let moves_mask = |c: &Component| is_masked_wide && c.takes_part("vertex_uv");
+    // A line in the colour of its surface needs what that is before light falls on it.
+    let before_light = ["place", "line", "vanish", "samples", "uv", "surface"];
+    let of_color = |c: &Component| {
+        let takes_part = before_light.into_iter().any(|stage| c.takes_part(stage));
+        c.about.is_model || c.about.key == "shade_ramp" || takes_part
+    };
     let keep = |c: &Component| {
-        let of_plain = moves_mask(c) || (dithers && c.takes_part("samples"));
-        c.about.key == SECTION || if is_plain { of_plain } else { c.about.on_line }
+        let counts = c.about.on_line && !is_plain && (shaded || of_color(c));
+        c.about.key == SECTION || counts || moves_mask(c) || (dithers && c.takes_part("samples"))
     };
     let recipe = of
         .recipe("outline", colors, keep)

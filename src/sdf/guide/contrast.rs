@@ -13,6 +13,8 @@ use crate::material::Toon;
 pub const KEPT: f32 = 0.8;
 /// Contrast below which nobody sees a feature.
 const SEEN: f32 = 0.012;
+/// Contrast of the paint alone from which eyes and brows count as painted.
+const PAINTED: f32 = 0.1;
 /// Lights: as many, over this angle on both sides of the front, at this height, radians. Further back a face lies in shade as a
 /// whole, by the file and by the map.
 const LIGHTS: usize = 12;
@@ -25,10 +27,19 @@ const SOFTNESS: f32 = 0.012;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Feature {
+    /// The eyes, where the face's own texture paints them.
+    Eyes,
+    /// The brows, likewise.
+    Brows,
     /// The nose.
     Nose,
     /// The mouth.
     Mouth,
+}
+
+impl Feature {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Eyes, Self::Brows, Self::Nose, Self::Mouth];
 }
 
 /// The contrast of a feature against the skin around it, under the light that takes most of it.
@@ -53,13 +64,19 @@ impl Contrast {
 }
 
 impl Guide {
-    /// The contrast of each feature as the file shades it and under the map; `shades` are what the luminance of its lit colour is
-    /// multiplied by in shade, before and after. None without landmarks.
+    /// The contrast of a feature as the file shades it and under the map; `shades` are what the luminance of its lit colour is
+    /// multiplied by in shade, before and after. `None` without landmarks, and for eyes and brows that the face's own texture does
+    /// not paint: those are parts of their own.
     #[must_use]
-    pub fn contrasts(&self, toon: &Toon, shades: [f32; 2]) -> Vec<Contrast> {
-        let Some(landmarks) = &self.landmarks else { return Vec::new() };
-        let worst = |feature| self.worst(landmarks, feature, toon, shades);
-        [Feature::Nose, Feature::Mouth].into_iter().map(worst).collect()
+    pub fn contrast(&self, feature: Feature, toon: &Toon, shades: [f32; 2]) -> Option<Contrast> {
+        let (width, cells) = cells(&self.relief, self.landmarks.as_ref()?, feature);
+        if matches!(feature, Feature::Eyes | Feature::Brows) {
+            let painted: Vec<f32> = cells.iter().map(|i| self.relief.painted[*i]).collect();
+            if deviation(width, &painted) < PAINTED {
+                return None;
+            }
+        }
+        Some(self.worst(width, &cells, feature, toon, shades))
     }
 
     /// Share of the front of the face that light from the front shows otherwise under the map than by the file: more than some
@@ -73,16 +90,15 @@ impl Guide {
         let to_light = Vec3::new(0.0, PITCH.sin(), PITCH.cos());
         let differs = |i: usize| {
             let own = own(toon, self.relief.normals[i], to_light);
-            (lit(self.at_cell(i), 0.0, own) - own).abs() > 0.5
+            (lit(self.thresholds.of_cell(i), 0.0, own) - own).abs() > 0.5
         };
         let counts = front.map(|i| (usize::from(differs(i)), 1));
         let (changed, all) = counts.reduce(|| (0, 0), |a, b| (a.0 + b.0, a.1 + b.1));
         changed as f32 / all.max(1) as f32
     }
 
-    fn worst(&self, landmarks: &Landmarks, feature: Feature, toon: &Toon, shades: [f32; 2]) -> Contrast {
-        let (width, cells) = cells(&self.relief, landmarks, feature);
-        let thresholds: Vec<[f32; 3]> = cells.iter().map(|i| self.at_cell(*i)).collect();
+    fn worst(&self, width: usize, cells: &[usize], feature: Feature, toon: &Toon, shades: [f32; 2]) -> Contrast {
+        let thresholds: Vec<[f32; 3]> = cells.iter().map(|i| self.thresholds.of_cell(*i)).collect();
         let lights = (0..LIGHTS).map(|i| {
             let yaw = (i as f32 / (LIGHTS - 1) as f32 * 2.0 - 1.0) * WIDEST;
             let to_light = Vec3::new(yaw.sin() * PITCH.cos(), PITCH.sin(), yaw.cos() * PITCH.cos());
@@ -100,11 +116,6 @@ impl Guide {
         lights.min_by(|a, b| share(a).total_cmp(&share(b))).unwrap_or(none)
     }
 
-    /// Thresholds in the middle of a cell.
-    fn at_cell(&self, cell: usize) -> [f32; 3] {
-        self.thresholds.at(Vec2::new((cell % SIDE) as f32 + 0.5, (cell / SIDE) as f32 + 0.5) / SIDE as f32)
-    }
-
     /// Leaves a feature to the file's own shading by a share, with a smooth border.
     pub fn leave(&mut self, feature: Feature, share: f32) {
         let Some(landmarks) = self.landmarks else { return };
@@ -114,7 +125,8 @@ impl Guide {
             let angle = Relief::angle((i % SIDE) as f32);
             if angle.abs() < 1.0 {
                 let across = angle.sin() * self.relief.distance[i] / self.relief.height;
-                let from = (Vec2::new(across, up - middle) / half).length();
+                // Both sides of the face have one.
+                let from = ((Vec2::new(across.abs(), up) - middle.with_x(middle.x.abs())) / half).length();
                 self.thresholds.leave(i, share * ((1.5 - from) / 0.6).clamp(0.0, 1.0));
             }
         }
@@ -135,20 +147,23 @@ fn own(toon: &Toon, normal: Vec3, to_light: Vec3) -> f32 {
     ((x + 1.0 - toon.toony) / (2.0 - 2.0 * toon.toony).max(1e-3)).clamp(0.0, 1.0)
 }
 
-/// Height of the middle, and half size, of a feature.
-fn bounds(l: &Landmarks, feature: Feature) -> (f32, Vec2) {
+/// Middle and half size of a feature; of two, of the left one.
+fn bounds(l: &Landmarks, feature: Feature) -> (Vec2, Vec2) {
     let span = l.eye[1] - l.chin;
+    let (eye, half) = (Vec2::from(l.eye), Vec2::from(l.eye_half));
     match feature {
-        Feature::Nose => (l.nose - 0.04 * span, Vec2::new(0.5 * l.eye[0], 0.17 * span)),
-        Feature::Mouth => (l.mouth, Vec2::new(0.9 * l.mouth_half, 0.1 * span)),
+        Feature::Eyes => (eye, half * 1.2),
+        Feature::Brows => (eye + Vec2::new(0.0, 1.9 * half.y), half * Vec2::new(1.3, 0.6)),
+        Feature::Nose => (Vec2::new(0.0, l.nose - 0.04 * span), Vec2::new(0.5 * l.eye[0], 0.17 * span)),
+        Feature::Mouth => (Vec2::new(0.0, l.mouth), Vec2::new(0.9 * l.mouth_half, 0.1 * span)),
     }
 }
 
 /// The box of cells of a feature, row by row, and how many are a row.
 fn cells(relief: &Relief, l: &Landmarks, feature: Feature) -> (usize, Vec<usize>) {
     let (middle, half) = bounds(l, feature);
-    let [left, top] = Relief::cell(place(relief, -half.x, middle + half.y));
-    let [right, bottom] = Relief::cell(place(relief, half.x, middle - half.y));
+    let [left, top] = Relief::cell(place(relief, middle.x - half.x, middle.y + half.y));
+    let [right, bottom] = Relief::cell(place(relief, middle.x + half.x, middle.y - half.y));
     let cells = (top..=bottom).flat_map(|y| (left..=right).map(move |x| y * SIDE + x)).collect();
     ((right + 1).saturating_sub(left), cells)
 }

@@ -26,7 +26,7 @@ use raster::{Corner, Raster};
 use relief::{REACH, Relief, faces};
 use thresholds::Thresholds;
 
-/// Side of a map, texels.
+/// Side of a map over the face's texture, texels.
 const SIDE: usize = 512;
 /// Texels that a map over the face's texture is grown beyond the triangles: over the holes of eyes and mouth, and so far that
 /// the end bends no distance on the face.
@@ -120,7 +120,7 @@ impl Guide {
             [code(right), code(left), code(normal.max(below * below * (3.0 - 2.0 * below))), u16::MAX]
         };
         let rgba = raster.texels.par_iter().map(texel).collect();
-        Some(FaceMap::single("from the mesh", texels(rgba)))
+        Some(FaceMap::single("from the mesh", texels(SIDE, rgba)))
     }
 
     /// The map over the relief, which is laid over the second set of texture coordinates ([`Guide::unwrap`]): whatever the face's
@@ -128,11 +128,9 @@ impl Guide {
     #[must_use]
     pub fn over_relief(&self) -> FaceMap {
         let texel = |[right, left, normal]: [f32; 3]| [code(right), code(left), code(normal), u16::MAX];
-        let mut rgba = vec![[0; 4]; SIDE * SIDE];
-        rgba.par_chunks_exact_mut(SIDE).enumerate().for_each(|(y, row)| {
-            row.iter_mut().zip(self.thresholds.row(y, SIDE)).for_each(|(to, from)| *to = texel(from));
-        });
-        FaceMap { uv_set: 1, ..FaceMap::single("from the mesh", texels(rgba)) }
+        let cells = (0..relief::SIDE * relief::SIDE).into_par_iter();
+        let rgba = cells.map(|cell| texel(self.thresholds.of_cell(cell))).collect();
+        FaceMap { uv_set: 1, ..FaceMap::single("from the mesh", texels(relief::SIDE, rgba)) }
     }
 
     /// Texture coordinates on the relief of a point of the world at rest. Behind the head they leave the picture at its upper
@@ -151,6 +149,6 @@ fn code(x: f32) -> u16 {
     (x.clamp(0.0, 1.0) * 65535.0).round() as u16
 }
 
-fn texels(rgba: Vec<[u16; 4]>) -> Texels {
-    Texels { width: SIDE as u32, height: SIDE as u32, rgba, is_8_bit: true }
+fn texels(side: usize, rgba: Vec<[u16; 4]>) -> Texels {
+    Texels { width: side as u32, height: side as u32, rgba, is_8_bit: true }
 }

@@ -154,31 +154,28 @@ pub(super) fn sample(field: &[f32], place: Vec2) -> f32 {
 /// A field smoothed by a bell of this half width (standard deviation), cells across and down.
 pub(super) fn smoothed(field: &[f32], across: f32, down: f32) -> Field {
     let mut out = field.to_vec();
-    // Three boxes are nearly a bell.
     for width in [across, down] {
-        for _ in 0..3 {
-            boxed(&mut out, width.round() as usize);
-        }
+        let reach = width.round() as usize;
+        // Three boxes are nearly a bell.
+        out.par_chunks_exact_mut(SIDE).for_each(|row| (0..3).for_each(|_| boxed(row, reach)));
         out = turned(&out);
     }
     out
 }
 
-/// Each row's means of as many cells on both sides; the ends go on beyond the edges.
-fn boxed(field: &mut [f32], reach: usize) {
+/// A row's means of as many cells on both sides; the ends go on beyond the edges.
+fn boxed(row: &mut [f32], reach: usize) {
     if reach == 0 {
         return;
     }
+    let old: [f32; SIDE] = std::array::from_fn(|x| row[x]);
+    let at = |x: usize| old[x.saturating_sub(reach).min(SIDE - 1)];
     let count = (2 * reach + 1) as f32;
-    field.par_chunks_exact_mut(SIDE).for_each(|row| {
-        let [before, after] = [row[0], row[SIDE - 1]].map(|end| std::iter::repeat_n(end, reach + 1));
-        let old: Vec<f32> = before.skip(1).chain(row.iter().copied()).chain(after).collect();
-        let mut sum: f32 = old[..=2 * reach].iter().sum();
-        for (x, value) in row.iter_mut().enumerate() {
-            *value = sum / count;
-            sum += old[x + 2 * reach + 1] - old[x];
-        }
-    });
+    let mut sum: f32 = (0..=2 * reach).map(at).sum();
+    for (x, value) in row.iter_mut().enumerate() {
+        *value = sum / count;
+        sum += at(x + 2 * reach + 1) - at(x);
+    }
 }
 
 fn turned(field: &[f32]) -> Field {

@@ -37,7 +37,7 @@ impl Thresholds {
                 let angle = Relief::angle(x as f32);
                 let turned = azimuth(&head, x, y);
                 let raised = (features[i] - head[i]) / relief.height;
-                let across = angle.sin() * sample(&relief.distance, cell_middle(x, y)) / relief.height;
+                let across = angle.sin() * relief.distance[i] / relief.height;
                 let place = Vec2::new(across, 1.0 - (y as f32 + 0.5) / SIDE as f32);
                 // The line between light and shade runs round what stands out.
                 let round = landmarks.map_or(0.0, |l| {
@@ -81,11 +81,11 @@ impl Thresholds {
         both(self.side(place), self.side(Vec2::new(1.0 - place.x, place.y)))
     }
 
-    /// The same at the middles of a row of texels from the character's right to the left, of so many in a picture.
-    pub(super) fn row(&self, y: usize, side: usize) -> impl Iterator<Item = [f32; 3]> + use<> {
-        let middle = |x: usize| Vec2::new(x as f32 + 0.5, y as f32 + 0.5) / side as f32;
-        let row: Vec<[f32; 2]> = (0..side).map(|x| self.side(middle(x))).collect();
-        (0..side).map(move |x| both(row[x], row[side - 1 - x]))
+    /// The same in the middle of a cell.
+    pub(super) fn of_cell(&self, cell: usize) -> [f32; 3] {
+        let mirrored = cell / SIDE * SIDE + (SIDE - 1 - cell % SIDE);
+        let side = |cell: usize| [self.from_left[cell], self.normal[cell]];
+        both(side(cell), side(mirrored))
     }
 
     /// Threshold for light from the left, and share of normal shading.
@@ -106,10 +106,6 @@ impl Thresholds {
 /// What both sides hold, of a place and of its mirror image: the mean is the same on both, to the last bit.
 fn both([left, normal]: [f32; 2], [right, mirrored]: [f32; 2]) -> [f32; 3] {
     [right, left, 0.5 * (normal + mirrored)]
-}
-
-fn cell_middle(x: usize, y: usize) -> Vec2 {
-    Vec2::new(x as f32 + 0.5, y as f32 + 0.5) / SIDE as f32
 }
 
 /// Where the surface looks to, as an angle from the front to the character's left, radians.
@@ -201,7 +197,7 @@ fn mouth(relief: &Relief, l: &Landmarks, dark_at: &mut [f32]) {
             if angle.abs() > 0.25 * PI {
                 continue;
             }
-            let across = (angle.sin() * sample(&relief.distance, cell_middle(x, y)) / relief.height).abs();
+            let across = (angle.sin() * relief.distance[y * SIDE + x] / relief.height).abs();
             let share = across / l.mouth_half.max(1e-5);
             if share < 0.85 {
                 let i = ((share * (columns - 1) as f32).round() as usize).min(columns - 1);
