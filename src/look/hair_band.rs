@@ -52,22 +52,22 @@ pub(super) fn add(scene: &mut Scene, materials: &BTreeSet<usize>, style: BandSty
     let middle = (low + high) * 0.5 + Vec3::new(0.0, 0.1, 0.0) * size.y;
     let parts = || scene.meshes.iter().flat_map(|m| &m.primitives);
     let mut fit = materials.clone();
-    let mut warnings = Vec::new();
+    let (mut warnings, mut coarse) = (Vec::new(), Vec::new());
     for index in materials {
         let of = || parts().filter(|p| p.material == *index);
         let triangles: usize = of().map(|p| p.indices.len() / 3).sum();
-        let why = if of().any(|p| p.uvs.len() > 1) {
-            "its second set of texture coordinates is taken".to_owned()
+        if of().any(|p| p.uvs.len() > 1) {
+            warnings.push((*index, "its second set of texture coordinates is taken".to_owned()));
         } else if triangles < LEAST_TRIANGLES {
-            format!("{triangles} triangles are too few for its marks; expected {LEAST_TRIANGLES}")
+            let why = format!("{triangles} triangles are too few for its marks; expected {LEAST_TRIANGLES}");
+            coarse.push((*index, why));
         } else {
             continue;
-        };
+        }
         fit.remove(index);
-        warnings.push((*index, why));
     }
     let tones: BTreeMap<usize, Light> = fit.iter().map(|index| (*index, light(scene, *index))).collect();
-    let marks = paint(style);
+    let marks = if fit.is_empty() { Image::default() } else { paint(style) };
     let mut wrapped = wrap(scene, &fit, middle, size.y, style);
     wrapped.retain(|material| {
         let share = covered(scene, *material, &marks, middle);
@@ -76,6 +76,10 @@ pub(super) fn add(scene: &mut Scene, materials: &BTreeSet<usize>, style: BandSty
         }
         share <= MOST_COVERED
     });
+    if wrapped.is_empty() {
+        // Beside hair that has a band nobody misses that of a wisp.
+        warnings.append(&mut coarse);
+    }
     for (material, why) in warnings {
         let message = format!("hair band left out: {why}");
         scene.warnings.push(Warning { pointer: format!("/materials/{material}"), message });
@@ -162,7 +166,7 @@ fn light(scene: &Scene, material: usize) -> Light {
     let pale = smooth(0.78, 0.95, hair.lightness);
     let colored =
         Tone { lightness: (hair.lightness + 0.17).min(0.985), chroma: hair.chroma * 0.72, ..hair.towards(1.6, 0.12) };
-    let sheen = Tone { lightness: (hair.lightness + 0.22).max(0.43), chroma: 0.05, hue_rad: -1.5 };
+    let sheen = Tone { lightness: (hair.lightness + 0.3).max(0.43), chroma: 0.055, hue_rad: -1.5 };
     let mix = |a: [f32; 3], b: [f32; 3], t: f32| std::array::from_fn(|c| a[c] + (b[c] - a[c]) * t);
     let color = mix(colored.to_linear(), sheen.to_linear(), dark);
     let strength = (0.92 - 0.3 * pale) * if is_painted { 0.3 } else { 1.0 };

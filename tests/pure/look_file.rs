@@ -197,6 +197,55 @@ fn cast_shadows_want_a_known_face() {
     assert!(told.self_shadow.is_some() && told.warnings.iter().all(|w| !w.message.contains("no part is known")));
 }
 
+/// Hair gets a band of light, or a warning says why it gets none.
+#[test]
+fn hair_bands_are_left_out_for_a_reason() {
+    use hikage::scene::Primitive;
+    let mut bare = heroine();
+    bare.materials.iter_mut().for_each(|m| m.authored.highlight = None);
+    let is_hair = |p: &Primitive| matches!(p.role, Role::Hair | Role::HairFront);
+    let made = |mut scene: Scene| {
+        hikage::Look::Anime(hikage::Anime::default()).apply(&mut scene);
+        let why = scene.warnings.iter().find_map(|w| w.message.strip_prefix("hair band left out: ").map(str::to_owned));
+        (scene, why.unwrap_or_default())
+    };
+    let hair = |scene: &mut Scene, change: &dyn Fn(&mut Primitive)| {
+        let parts = scene.meshes.iter_mut().flat_map(|m| &mut m.primitives);
+        parts.filter(|p| is_hair(p)).for_each(change);
+    };
+    let (banded, why) = made(bare.clone());
+    let lit = banded.materials.iter().position(|m| m.highlight.is_some_and(|h| h.map.uv_set == 1)).expect("a band");
+    assert!(why.is_empty(), "{why}");
+
+    let mut mapped = bare.clone();
+    hair(&mut mapped, &|p| p.uvs.resize(2, vec![[0.0; 2]; p.positions.len()]));
+    assert!(made(mapped).1.contains("second set"));
+
+    let mut coarse = bare.clone();
+    hair(&mut coarse, &|p| p.indices.truncate(30));
+    assert!(made(coarse).1.contains("too few"));
+
+    // Hair of which nothing is left before the ears but what lies under the marks, as light and view from the front have them.
+    let highlight = banded.materials[lit].highlight.expect("a band");
+    let marks = &banded.images[banded.textures[highlight.map.texture].image];
+    let is_marked = |part: &Primitive, t: &[u32]| {
+        let [u, v] = [0, 1].map(|k| t.iter().map(|i| part.uvs[1][*i as usize][k]).sum::<f32>() / 3.0);
+        let place = |c: f32, side: u32| ((c * side as f32).max(0.0) as u32).min(side - 1);
+        let y = place(v + highlight.light_v + highlight.view_v, marks.height);
+        marks.pixels[(y * marks.width + place(u, marks.width)) as usize * 4] > 128
+    };
+    let mut covered = bare;
+    for (mesh, with) in covered.meshes.iter_mut().zip(&banded.meshes) {
+        for (part, with) in mesh.primitives.iter_mut().zip(&with.primitives).filter(|(p, _)| is_hair(p)) {
+            let behind = |t: &[u32]| t.iter().all(|i| part.positions[*i as usize][2] < -0.05);
+            let kept = part.indices.chunks_exact(3).filter(|t| behind(t) || (with.uvs.len() > 1 && is_marked(with, t)));
+            part.indices = kept.flatten().copied().collect();
+        }
+    }
+    let why = made(covered).1;
+    assert!(why.contains("would cover"), "{why}");
+}
+
 /// Every mistake names the file, the place, and the nearest thing that exists.
 #[test]
 fn mistakes_are_named_with_what_was_meant() {
