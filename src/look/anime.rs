@@ -23,6 +23,7 @@ pub(super) fn apply(scene: &mut Scene, look: &Anime) {
     scene.bangs = Some(Bangs::default());
     scene.eyes_through = Some(EyesThrough::default());
     outlines(scene);
+    borders(scene);
     round_hair(scene);
     hair(scene, look);
     faces(scene, look, &before);
@@ -45,6 +46,11 @@ pub(super) fn apply(scene: &mut Scene, look: &Anime) {
 pub(super) fn materials_of(scene: &Scene, role: Role) -> BTreeSet<usize> {
     let parts = scene.meshes.iter().flat_map(|m| &m.primitives);
     parts.filter(|p| p.role == role).map(|p| p.material).filter(|m| *m < scene.materials.len()).collect()
+}
+
+/// Materials that a part of any of these roles has.
+fn materials_of_any(scene: &Scene, roles: &[Role]) -> BTreeSet<usize> {
+    roles.iter().flat_map(|role| materials_of(scene, *role)).collect()
 }
 
 /// Luminance up to which a line counts as black.
@@ -73,16 +79,26 @@ fn outlines(scene: &mut Scene) {
         }
         return;
     }
-    let drawn: BTreeSet<usize> =
-        [Role::Face, Role::Skin, Role::Hair, Role::HairFront, Role::Cloth, Role::Accessory, Role::Other]
-            .into_iter()
-            .flat_map(|role| materials_of(scene, role))
-            .collect();
-    for index in drawn {
+    let solid = [Role::Face, Role::Skin, Role::Hair, Role::HairFront, Role::Cloth, Role::Accessory, Role::Other];
+    for index in materials_of_any(scene, &solid) {
         let material = &mut scene.materials[index];
         if material.alpha.mode != AlphaMode::Blend {
             let width = OutlineWidth::Screen { height_ratio: 0.0016 };
             material.outline = Some(Outline { width, tint: Some(OutlineTint::default()), ..Outline::default() });
+        }
+    }
+}
+
+/// How crisp the border of shade is at least on hair and clothes, as MToon measures it: one stroke of a brush.
+const CRISP: f32 = 0.95;
+
+/// Crisp borders on all but skin, whose light turns warm before it turns to shade.
+fn borders(scene: &mut Scene) {
+    let skin = materials_of_any(scene, &[Role::Face, Role::Skin, Role::Mouth]);
+    let drawn = materials_of_any(scene, &[Role::Hair, Role::HairFront, Role::Cloth, Role::Accessory, Role::Other]);
+    for index in drawn.difference(&skin) {
+        if let Shading::Toon(toon) = &mut scene.materials[*index].shading {
+            toon.toony = toon.toony.max(CRISP);
         }
     }
 }
@@ -98,11 +114,8 @@ fn self_shadow(scene: &mut Scene) {
         return;
     }
     scene.self_shadow = Some(SelfShadow::default());
-    let of = |scene: &Scene, roles: &[Role]| -> BTreeSet<usize> {
-        roles.iter().flat_map(|role| materials_of(scene, *role)).collect()
-    };
-    let face = of(scene, &[Role::Face]);
-    for index in of(scene, &[Role::Face, Role::Skin, Role::Cloth, Role::Accessory, Role::Other]) {
+    let face = materials_of_any(scene, &[Role::Face]);
+    for index in materials_of_any(scene, &[Role::Face, Role::Skin, Role::Cloth, Role::Accessory, Role::Other]) {
         let material = &mut scene.materials[index];
         // A face without a map would get all of it.
         let is_bare = face.contains(&index) && material.face_shadow.is_none();
@@ -220,12 +233,8 @@ fn faces(scene: &mut Scene, look: &Anime, before: &[[f32; 3]]) {
 
 /// Ramps and strokes of fur, where the file carries them. Eyes stay as they are drawn.
 fn painted_shade(scene: &mut Scene) {
-    let eyes: BTreeSet<usize> = [Role::EyeWhite, Role::Eye, Role::EyeHighlight, Role::Lash, Role::Brow]
-        .into_iter()
-        .flat_map(|role| materials_of(scene, role))
-        .collect();
-    let skin: BTreeSet<usize> =
-        [Role::Face, Role::Skin, Role::Mouth].into_iter().flat_map(|role| materials_of(scene, role)).collect();
+    let eyes = materials_of_any(scene, &[Role::EyeWhite, Role::Eye, Role::EyeHighlight, Role::Lash, Role::Brow]);
+    let skin = materials_of_any(scene, &[Role::Face, Role::Skin, Role::Mouth]);
     for (index, material) in scene.materials.iter_mut().enumerate().filter(|(i, _)| !eyes.contains(i)) {
         let Authored { ramps, ramp_rows: [rows, row], part_ids, part_rows, detail_normal, .. } = material.authored;
         let part_rows = part_rows.map(|r| u32::try_from(r).unwrap_or(row));
