@@ -11,7 +11,7 @@ use crate::material::{
     Gem, Glow, Highlight, Layer, Material, Outline, OutlineTint, OutlineWidth, RampMaps, ShadeRamp, Shading,
     ShapedHighlight, Sparkle, Stocking, Substance, TintSource, Transition,
 };
-use crate::scene::{Bangs, Bloom, EyesThrough, HumanBone, Post, Role, Scene, SelfShadow, Warning};
+use crate::scene::{Bangs, Bloom, EyesThrough, HumanBone, Node, Post, Role, Scene, SelfShadow, Warning};
 use crate::sdf::{FaceMap, FaceStyle, Feature, Guide, Sides};
 
 /// Materials that get a face's shadow: characters have one to three, and a file of thousands must not fill the memory.
@@ -107,7 +107,9 @@ fn borders(scene: &mut Scene) {
 /// draws the shade of each, and their edges would tear all others.
 fn self_shadow(scene: &mut Scene) {
     // What nobody knows for a face would be cut across its eyes by the shadow of a hat.
-    if scene.bone_node(HumanBone::Head).is_some() && materials_of(scene, Role::Face).is_empty() {
+    let is_head = |node: &Node| node.name.to_lowercase().contains("head");
+    let has_head = scene.bone_node(HumanBone::Head).is_some() || scene.nodes.iter().any(is_head);
+    if has_head && materials_of(scene, Role::Face).is_empty() {
         let message = "cast shadows are left out: no part is known to be the face, which those of a hat would darken; \
             say which one is, as in [parts] Head = \"face\"";
         scene.warnings.push(Warning { pointer: "/meshes".to_owned(), message: message.to_owned() });

@@ -193,6 +193,15 @@ fn cast_shadows_want_a_known_face() {
     hikage::Look::Anime(hikage::Anime::default()).apply(&mut unknown);
     assert!(unknown.self_shadow.is_none() && unknown.materials.iter().all(|m| m.cast_shadow.is_none()));
     assert!(unknown.warnings.iter().any(|w| w.message.contains("no part is known to be the face")));
+    // A file that says nothing of bones names its nodes; what has no head has no face to be cut.
+    let mut thing = told.clone();
+    thing.character = None;
+    let mut named = thing.clone();
+    hikage::Look::Anime(hikage::Anime::default()).apply(&mut named);
+    assert!(named.self_shadow.is_none());
+    thing.nodes.iter_mut().for_each(|node| node.name = "part".to_owned());
+    hikage::Look::Anime(hikage::Anime::default()).apply(&mut thing);
+    assert!(thing.self_shadow.is_some());
     apply(&format!("base = \"anime\"\n[parts]\n{name} = \"face\""), &mut told).expect("a good look");
     assert!(told.self_shadow.is_some() && told.warnings.iter().all(|w| !w.message.contains("no part is known")));
 }

@@ -1,7 +1,7 @@
 // Maps of shadows: those of the bangs on faces, and those of the key light.
 import package::bind::actor::actors;
 import package::bind::vertex::Vertex;
-import package::lib::bangs::{BANGS_BLOCK, BANGS_TAPS, bangs_weight, esm_taps};
+import package::lib::bangs::{BANGS_BLOCK, BANGS_TAPS, bangs_grazed, bangs_weight, esm_taps};
 import package::lib::shadow::{shadow_edge, shadow_filtered, shadow_moved, shadow_place, shadow_reach};
 
 @group(1) @binding(2) var bangs_map: texture_2d_array<f32>;
@@ -29,13 +29,10 @@ fn bangs_from_world(actor: u32, position: vec3f) -> vec3f {
     return vec3f(dot(a.bangs_world_row_u, p), dot(a.bangs_world_row_v, p), dot(a.bangs_world_row_depth, p));
 }
 
-// By how much depth a receiver with this unit normal, world space, is moved towards the light of the map: not where it faces that,
-// and a tenth of the map's width where light only grazes it. There each texel is a long step, and the shadow of a lock a smear.
+// By how much depth a receiver with this unit normal, world space, is moved towards the light of the map.
 fn bangs_nearer(actor: u32, normal: vec3f) -> f32 {
     let away = actors[actor].bangs_world_row_depth.xyz;
-    let facing = -dot(normal, away) / max(length(away), 1e-6);
-    // The range of depth is twice the width.
-    return 0.05 * (1.0 - smoothstep(0.0, 0.4, facing));
+    return bangs_grazed(-dot(normal, away) / max(length(away), 1e-6));
 }
 
 // Place of a point of the world in the shadow map of an actor.

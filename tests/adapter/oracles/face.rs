@@ -109,6 +109,25 @@ fn second_maps_and_masks_keep_to_their_sectors() {
     }
 }
 
+/// Only what lies low and looks down is the underside of a jaw: neither nose and lips, nor its sides.
+#[test]
+fn the_underside_of_a_jaw_is_low_and_looks_down() {
+    let rows = vec![vec![-0.9, -0.9], vec![-0.9, -0.35], vec![-0.5, -1.0], vec![0.8, 0.8], vec![-0.7, -1.0]];
+    let found = run(&["face_shadow"], "output[out] = face_underside(input[base], input[base + 1u]);", &rows, 1);
+    for (i, (found, expected)) in found.iter().zip([1.0, 0.0, 0.0, 0.0, 0.5]).enumerate() {
+        assert_close("underside", i, found, &[expected], 1e-5);
+    }
+}
+
+/// A receiver that faces the light of the bangs stays where it is; the more it is grazed, the farther it is moved.
+#[test]
+fn grazed_receivers_are_moved_towards_the_light() {
+    let rows: Vec<Vec<f32>> = (-10..=10).map(|i| vec![i as f32 / 10.0]).collect();
+    let found = run(&["bangs"], "output[out] = bangs_grazed(input[base]);", &rows, 1);
+    assert!(found.windows(2).all(|w| w[0][0] >= w[1][0]), "{found:?}");
+    assert!(found[..=10].iter().all(|f| f[0] == 0.05) && found[14..].iter().all(|f| f[0] == 0.0), "{found:?}");
+}
+
 /// The tint is whole at the border, gone where the band ends, and grows between.
 #[test]
 fn transition_goes_from_its_colour_to_white() {
