@@ -40,16 +40,10 @@ fn depth_rim_contour(s: Surface, l: Shaded, color: vec3f) -> vec3f {
     let here = distance_here(pixel);
     // Two places a pixel apart soften the inner edge; a little less, since half a pixel lies between two centres.
     let half_px = offset * (0.49 / max(length(offset), 0.5));
-    let left = 0.5 * depth_rim_resolved(width, height) * depth_rim_near(here, m.fade_m);
-    var wanted = left > 0.0;
-    @if(!depth_rim_shade && !punctual) wanted &= lit_side > 0.0;
-    var edge = 0.0;
-    // A count of 0 rather than a branch: software rasterizers walk both sides of branches, but leave loops early.
-    let places = select(0, 2, wanted);
-    for (var i = 0; i < places; i++) {
-        let place = vec2i(floor(pixel.xy + offset + half_px * f32(2 * i - 1)));
-        edge += left * depth_rim_step(distance_at(place) - here, m.threshold_m);
-    }
+    let near_step = distance_at(vec2i(floor(pixel.xy + offset - half_px))) - here;
+    let far_step = distance_at(vec2i(floor(pixel.xy + offset + half_px))) - here;
+    let edge = 0.5 * (depth_rim_step(near_step, m.threshold_m) + depth_rim_step(far_step, m.threshold_m))
+        * depth_rim_resolved(width, height) * depth_rim_near(here, m.fade_m);
     var contour = edge * lit_side;
     var light = m.color * frame.light_color * contour;
     @if(depth_rim_shade) {
