@@ -34,7 +34,7 @@ mod normals;
 mod pbr;
 mod primitive;
 mod radiance;
-mod role;
+pub(crate) mod role;
 mod skin;
 mod spring;
 mod strands;

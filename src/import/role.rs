@@ -157,7 +157,7 @@ const WORDS: &[Words] = &[
 ];
 
 /// Lower-case words of a name; capitals after small letters start a word, as in `HairBack`.
-fn words(name: &str) -> Vec<String> {
+pub(crate) fn words(name: &str) -> Vec<String> {
     let mut spaced = String::new();
     let mut small = false;
     for c in name.chars().take(200) {

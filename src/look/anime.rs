@@ -6,6 +6,7 @@ use glam::Vec3;
 
 use super::{Anime, hair_band, shade};
 use crate::color::LinearRgb;
+use crate::import::role::words;
 use crate::material::{
     AlphaMode, Authored, BangsShadow, CastShadow, DepthRim, Diamond, FacePaint, FaceShadow, Fire, Fluff, FurDetail,
     Gem, Glow, Highlight, Layer, Material, Outline, OutlineTint, OutlineWidth, RampMaps, ShadeRamp, Shading,
@@ -49,7 +50,7 @@ pub(super) fn materials_of(scene: &Scene, role: Role) -> BTreeSet<usize> {
 }
 
 /// Materials that a part of any of these roles has.
-fn materials_of_any(scene: &Scene, roles: &[Role]) -> BTreeSet<usize> {
+pub(super) fn materials_of_any(scene: &Scene, roles: &[Role]) -> BTreeSet<usize> {
     roles.iter().flat_map(|role| materials_of(scene, *role)).collect()
 }
 
@@ -107,7 +108,7 @@ fn borders(scene: &mut Scene) {
 /// draws the shade of each, and their edges would tear all others.
 fn self_shadow(scene: &mut Scene) {
     // What nobody knows for a face would be cut across its eyes by the shadow of a hat.
-    let is_head = |node: &Node| node.name.to_lowercase().contains("head");
+    let is_head = |node: &Node| words(&node.name).iter().any(|word| word == "head");
     let has_head = scene.bone_node(HumanBone::Head).is_some() || scene.nodes.iter().any(is_head);
     if has_head && materials_of(scene, Role::Face).is_empty() {
         let message = "cast shadows are left out: no part is known to be the face, which those of a hat would darken; \

@@ -1,10 +1,8 @@
 //! Eyes in natural light: where they are balls, behind a cornea.
 
-use std::collections::BTreeSet;
-
 use glam::{Mat4, Vec3};
 
-use super::anime::materials_of;
+use super::anime::materials_of_any;
 use crate::eye::{EyeBone, EyeDimensions, EyeFrame, Eyes, Painted, parts_at_rest};
 use crate::material::{Alpha, AlphaMode, CastShadow, Eye};
 use crate::scene::{Primitive, Role, Scene};
@@ -129,8 +127,7 @@ struct Layers {
 }
 
 fn layers(scene: &Scene) -> Layers {
-    let named: BTreeSet<usize> =
-        [Role::Eye, Role::EyeWhite].into_iter().flat_map(|role| materials_of(scene, role)).collect();
+    let named = materials_of_any(scene, &[Role::Eye, Role::EyeWhite]);
     let bones = EyeBone::of(scene);
     let parts = parts_at_rest(scene);
     let named_parts = parts.iter().filter(|part| named.contains(&part.primitive.material));

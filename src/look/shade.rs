@@ -5,7 +5,7 @@ use std::f32::consts::PI;
 
 use glam::Vec3;
 
-use super::anime::materials_of;
+use super::anime::materials_of_any;
 use super::tone::Tone;
 use crate::material::{Material, Shading, Toon};
 use crate::scene::painted::Painted;
@@ -27,7 +27,7 @@ const ROSE: f32 = -0.1;
 
 /// Gives a hue to grey shade, to skin a warm one, and to black hair a light that its shade is told from.
 pub(super) fn apply(scene: &mut Scene) {
-    let role = |roles: &[Role]| -> BTreeSet<usize> { roles.iter().flat_map(|r| materials_of(scene, *r)).collect() };
+    let role = |roles: &[Role]| materials_of_any(scene, roles);
     let others = role(&[Role::Hair, Role::HairFront, Role::Cloth, Role::Accessory, Role::Other]);
     let (of_body, unknown) = (role(&[Role::Face, Role::Skin]), role(&[Role::Other]));
     // A palette serves a whole character, skin among the rest.
