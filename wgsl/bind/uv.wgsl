@@ -6,6 +6,15 @@ struct UvTransform {
     row_v: vec4f,
 }
 
+// A texel of a surface. Vertices stand far apart: there it is one of a picture 256 texels wide.
+fn surface_texel(texture: texture_2d<f32>, texture_sampler: sampler, uv: vec2f) -> vec4f {
+    @if(at_vertices) {
+        let level = max(textureNumLevels(texture), 9u) - 9u;
+        return textureSampleLevel(texture, texture_sampler, uv, f32(level));
+    }
+    @if(!at_vertices) return textureSample(texture, texture_sampler, uv);
+}
+
 // UVs of one texture: animation first, then KHR_texture_transform (MToon, "Compatibility with KHR_texture_transform").
 fn texture_uv(uv: vec4f, transform: UvTransform) -> vec2f {
     @if(!uv_transforms) return uv.xy;

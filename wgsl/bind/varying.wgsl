@@ -26,6 +26,8 @@ struct Varying {
     @if(bangs) @location(6) bangs: vec3f,
     // Movement of the highlight, and what is left of it.
     @if(moved) @location(7) @interpolate(flat) moved: vec3f,
+    // Colour of a line that vertices know.
+    @if(at_vertices) @location(7) line_color: vec3f,
     // Place in the shadow map of the character, and its layer.
     @if(shadow) @location(8) shadow: vec4f,
     // Of an eye: its number, and its gaze and what is to the right of it in the world, octahedral snorm16.

@@ -1,7 +1,7 @@
 // Lit colour and alpha.
 import package::bind::frame::frame;
 import package::bind::surface::Surface;
-import package::bind::uv::{UvTransform, texture_uv};
+import package::bind::uv::{UvTransform, surface_texel, texture_uv};
 import package::bind::varying::Varying;
 import package::lib::hashed_alpha::{hashed_count, hashed_threshold};
 import package::material::{base_texture, base_texture_sampler, material, stage_uv};
@@ -20,7 +20,7 @@ struct Base {
 // What base colour and alpha are multiplied with.
 fn base_texel(in: Varying, uv: vec4f) -> vec4f {
     var texel = vec4f(1.0);
-    @if(base_texture) texel = textureSample(
+    @if(base_texture) texel = surface_texel(
         base_texture, base_texture_sampler, texture_uv(uv, material.base.texture_uv)
     );
     @if(vertex_color) texel *= in.color;

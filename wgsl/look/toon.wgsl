@@ -1,6 +1,6 @@
 // Colour in shade; wgsl/model/toon.wgsl shades with it.
 import package::bind::surface::Surface;
-import package::bind::uv::{UvTransform, texture_uv};
+import package::bind::uv::{UvTransform, surface_texel, texture_uv};
 import package::bind::varying::Varying;
 import package::material::{material, toon_shade_texture, toon_shade_texture_sampler};
 
@@ -17,7 +17,7 @@ struct Toon {
 fn shade_color(s: Surface) -> vec3f {
     var shade = material.toon.shade_color;
     @if(shade_is_base) shade *= s.texel.rgb;
-    @if(toon_shade_texture && !shade_is_base) shade *= textureSample(
+    @if(toon_shade_texture && !shade_is_base) shade *= surface_texel(
         toon_shade_texture, toon_shade_texture_sampler, texture_uv(s.uv, material.toon.shade_texture_uv)
     ).rgb;
     @if(vertex_color && !shade_is_base) shade *= s.at.color.rgb;

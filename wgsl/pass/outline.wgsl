@@ -49,6 +49,7 @@ fn vs_main(in: VertexInput) -> Varying {
     out.clip_position.z *= 1.0 - 1e-5;
     @if(outline_push) out.clip_position.z = pulled_depth(out.clip_position.z, out.clip_position.w, -m.push_m);
     out.clip_position = in_target(out.clip_position);
+    @if(at_vertices) out.line_color = tinted(out, world_position(v, v.position)).rgb;
     return out;
 }
 
@@ -61,7 +62,11 @@ fn line(in: Varying) -> vec4f {
     let m = &material.outline;
     // The colour of the surface or of the line, and the surface's alpha.
     var given = vec4f(1.0);
-    @if(outline_tint) given = tinted(in);
+    @if(at_vertices) given = vec4f(in.line_color, 1.0);
+    @if(outline_tint && !at_vertices) {
+        stage_vanish(in);
+        given = tinted(in, in.world_position);
+    }
     @if(!outline_tint && shaded) {
         let d = drawn(in, true);
         given = vec4f(d.color, d.alpha);
@@ -76,13 +81,12 @@ fn line(in: Varying) -> vec4f {
 
 // The colour of the surface in full light or in full shade, darkened and turned; and its alpha.
 @if(outline_tint)
-fn tinted(in: Varying) -> vec4f {
-    stage_vanish(in);
+fn tinted(in: Varying, position: vec3f) -> vec4f {
     let m = &material.outline;
     let s = surface_of(in, true);
     var source = s.lit;
-    @if(toon && lit && outline_from_shade) source = s.shade;
-    @if(toon && lit && outline_from_shade && shade_ramp) source = ramp_color(s.uv, s.lit, s.shade, 0.0);
+    @if(toon && outline_from_shade) source = s.shade;
+    @if(toon && outline_from_shade && shade_ramp) source = ramp_color(s.uv, s.lit, s.shade, 0.0);
     var color = outline_tinted(source, m.tint_gamma, m.shift, m.tint_factor);
     @if(outline_part_ids) {
         // The texel itself: numbers are not filtered.
@@ -93,5 +97,5 @@ fn tinted(in: Varying) -> vec4f {
             color = m.parts[part].rgb;
         }
     }
-    return vec4f(color * arriving_light(in.world_position), s.alpha);
+    return vec4f(color * arriving_light(position), s.alpha);
 }

@@ -28,21 +28,31 @@ pub(crate) fn request(picture: &Picture<'_>, of: &Composition, material: &Materi
     let before_light = ["place", "line", "vanish", "samples", "uv", "surface"];
     let of_color = |c: &Component| {
         let takes_part = before_light.into_iter().any(|stage| c.takes_part(stage));
-        c.about.is_model || c.about.key == "shade_ramp" || takes_part
+        (c.about.is_model || c.about.key == "shade_ramp" || takes_part) && c.about.key != "emission"
     };
     let keep = |c: &Component| {
         let counts = c.about.on_line && !is_plain && (shaded || of_color(c));
         c.about.key == SECTION || counts || moves_mask(c) || (dithers && c.takes_part("samples"))
     };
-    let recipe = of
+    // A colour without cut-outs or numbers of parts is known well enough at vertices.
+    let is_smooth = |c: &Component| {
+        !c.takes_part("uv") && (!c.takes_part("surface") || c.about.is_model || c.about.key == "base")
+    };
+    let is_whole = of.alpha == AlphaMode::Opaque && !vanishes && !dithers && !of.is_on("outline_part_ids");
+    let at_vertices = is_tinted && !shaded && is_whole && !of.any(|c| keep(c) && !is_smooth(c));
+    let mut recipe = of
         .recipe("outline", colors, keep)
         .with("line", true)
         .with("shaded", shaded)
         .with("blend", blend)
-        .with("world", is_tinted)
+        .with("world", is_tinted && !at_vertices)
+        .with("at_vertices", at_vertices)
         .with("dither_samples", dithers)
         .with("covered", dithers)
         .with("alpha_mask", of.alpha == AlphaMode::Mask);
+    if !shaded {
+        recipe = recipe.with("lit", false).with("normal", false);
+    }
     let write_depth = !blend || material.alpha.write_depth;
     // Thin lines are faint.
     Some(picture.request(recipe, Drawing { cull: Some(wgpu::Face::Front), blend: true, write_depth, mark: Mark::None }))
