@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::layout::Block;
-use super::shaders::{Bound, Places, Recipe, Shaders, Shape};
+use super::shaders::{Bound, Places, Recipe, Shaders, Shape, file};
 use crate::material::{
     About, AlphaMode, Generated, Kind, Leaf, Options, Read, Surroundings, TextureRef, UvTransform, Walk,
 };
@@ -63,6 +63,11 @@ impl Component {
     /// Whether it takes part in a stage.
     pub fn takes_part(&self, stage: &str) -> bool {
         self.hooks.contains(&stage)
+    }
+
+    /// Whether nothing but a pass of its own reads it.
+    fn has_own_pass(&self) -> bool {
+        self.hooks.is_empty() && !file(&format!("pass/{}", self.about.key)).is_empty()
     }
 }
 
@@ -169,7 +174,8 @@ impl Composition {
 
     /// The recipe of a pass that keeps some of its sections.
     pub fn recipe(&self, pass: &'static str, vertex_colors: bool, keep: impl Fn(&Component) -> bool) -> Recipe {
-        let kept: Vec<&Component> = self.components.iter().filter(|c| keep(c)).collect();
+        let is_read = |c: &Component| !c.has_own_pass() || c.about.key == pass;
+        let kept: Vec<&Component> = self.components.iter().filter(|c| keep(c) && is_read(c)).collect();
         let mut options = Options::default();
         for component in &kept {
             component.options.iter().for_each(|name| options.set(name, true));

@@ -35,6 +35,7 @@ mod uv_metric;
 mod variants;
 pub(crate) mod vertex;
 mod view;
+mod wgsl_files;
 
 #[cfg(test)]
 mod tests;

@@ -1,52 +1,23 @@
 //! The only place that knows how WGSL is linked: what a material needs and nothing else, from the files of `wgsl/` and one
 //! generated module, `package::material`, that calls each section's functions by name at fixed stages.
 
-use std::borrow::Cow;
 use std::collections::{BTreeMap, HashMap};
 use std::fmt::{self, Write};
-use std::path::PathBuf;
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex};
 
-use wesl::{CompileOptions, ModulePath, NoMangler, ResolveError, Resolver};
+use wesl::{CompileOptions, ModulePath, NoMangler};
 
 use super::check_section::fault_in;
 pub use super::check_wgsl::{MAX_WGSL_BYTES, ShaderSummary, check};
 use super::draw_list::recipes_of;
 use super::layout::{Layout, struct_texts};
+use super::made::lock;
+pub(crate) use super::wgsl_files::file;
+pub use super::wgsl_files::{FOLDER_VARIABLE, tree};
+use super::wgsl_files::{Parsed, Tree};
 use crate::material::{About, LISTED, Material, Options, registered};
 use crate::scene::Scene;
 use crate::{Error, Result};
-
-/// The files of `wgsl/` by module: `lib/color`.
-const EMBEDDED: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/tree.rs"));
-
-/// Names a folder whose files take the place of the embedded ones: shaders can be written without building anew.
-pub const FOLDER_VARIABLE: &str = "HIKAGE_WGSL";
-
-/// The files of `wgsl/` by module: `lib/color`; those of the folder in `HIKAGE_WGSL`, read once, where it is set.
-pub fn tree() -> &'static [(&'static str, &'static str)] {
-    static TREE: OnceLock<Vec<(&'static str, &'static str)>> = OnceLock::new();
-    TREE.get_or_init(|| {
-        let folder = std::env::var_os(FOLDER_VARIABLE).map(PathBuf::from);
-        let of_folder = |module: &str| {
-            let text = std::fs::read_to_string(folder.as_ref()?.join(module).with_extension("wgsl")).ok()?;
-            Some(&*text.leak())
-        };
-        let chosen = |(module, text): &(&'static str, &'static str)| {
-            let found = of_folder(module);
-            if folder.is_some() && found.is_none() {
-                tracing::warn!("{FOLDER_VARIABLE}: there is no {module}.wgsl; the embedded one is taken");
-            }
-            (*module, found.unwrap_or(text))
-        };
-        EMBEDDED.iter().map(chosen).collect()
-    })
-}
-
-/// The text of a file of `wgsl/`.
-pub(crate) fn file(module: &str) -> &'static str {
-    tree().iter().find(|(name, _)| *name == module).map_or("", |(_, text)| text)
-}
 
 /// How the results of several sections become one.
 enum Fold {
@@ -160,6 +131,8 @@ impl Recipe {
 #[derive(Debug)]
 pub(crate) struct Linked {
     pub text: Arc<str>,
+    /// The same as the device takes it.
+    pub module: naga::Module,
     pub has_fragment: bool,
     /// Whether it reads where actors were in the last picture.
     pub reads_past: bool,
@@ -224,6 +197,7 @@ pub(crate) struct Shaders {
     hooks: HashMap<&'static str, Vec<&'static str>>,
     own: Vec<&'static About>,
     texts: Mutex<HashMap<String, Arc<Linked>>>,
+    parsed: Parsed,
 }
 
 impl Shaders {
@@ -235,7 +209,13 @@ impl Shaders {
     pub fn with(own: Vec<&'static About>) -> Result<Self> {
         let sections: Vec<&'static About> = LISTED.iter().copied().chain(own.iter().copied()).collect();
         let hooks = sections.iter().map(|about| (about.key, hooks_of(about))).collect();
-        Ok(Self { places: Arc::new(Places::new(&sections)?), hooks, own, texts: Mutex::default() })
+        Ok(Self {
+            places: Arc::new(Places::new(&sections)?),
+            hooks,
+            own,
+            texts: Mutex::default(),
+            parsed: Parsed::default(),
+        })
     }
 
     /// Refuses a material with a section that was not known when this was made.
@@ -263,28 +243,26 @@ impl Shaders {
     /// [`Error::Input`] with file and line for a fault in the WGSL of a section.
     pub fn linked(&self, recipe: &Recipe) -> Result<Arc<Linked>> {
         let key = recipe.key();
-        if let Some(found) = self.texts.lock().unwrap_or_else(PoisonError::into_inner).get(&key) {
+        if let Some(found) = lock(&self.texts).get(&key) {
             return Ok(Arc::clone(found));
         }
         let linked = Arc::new(self.link(recipe)?);
-        self.texts.lock().unwrap_or_else(PoisonError::into_inner).insert(key, Arc::clone(&linked));
+        lock(&self.texts).insert(key, Arc::clone(&linked));
         Ok(linked)
     }
 
     fn link(&self, recipe: &Recipe) -> Result<Linked> {
-        let tree = Tree { page: self.page(recipe), own: &self.own };
+        let tree = Tree { page: self.page(recipe), own: &self.own, parsed: &self.parsed };
         let mut options = CompileOptions { validate: false, ..CompileOptions::default() };
         let on = recipe.options.iter().map(str::to_owned).chain(recipe.sections.iter().map(|a| a.key.to_owned()));
         options.features.flags = on.map(|name| (name, true.into())).collect();
         let root = module_path(&["pass", recipe.pass]);
         let text = wesl::compile(&root, &tree, &NoMangler, &options).map_err(linking)?.to_string();
         let module = naga::front::wgsl::parse_str(&text).map_err(|e| fault_in(&recipe.sections, &text, &e))?;
-        Ok(Linked {
-            has_fragment: module.entry_points.iter().any(|e| e.stage == naga::ShaderStage::Fragment),
-            reads_past: module.global_variables.iter().any(|(_, v)| v.binding.as_ref().is_some_and(|b| b.group == 3)),
-            bindings: bindings(&module),
-            text: text.into(),
-        })
+        let has_fragment = module.entry_points.iter().any(|e| e.stage == naga::ShaderStage::Fragment);
+        let of_past = |v: &naga::GlobalVariable| v.binding.as_ref().is_some_and(|b| b.group == 3);
+        let reads_past = module.global_variables.iter().any(|(_, v)| of_past(v));
+        Ok(Linked { bindings: bindings(&module), text: text.into(), module, has_fragment, reads_past })
     }
 
     /// The module `package::material` of a recipe.
@@ -453,25 +431,6 @@ pub(crate) fn hooks_of(about: &About) -> Vec<&'static str> {
 
 fn module_path(parts: &[&str]) -> ModulePath {
     ModulePath::new(wesl::syntax::PathOrigin::Absolute, parts.iter().map(|p| (*p).to_owned()).collect())
-}
-
-/// Files as the linker finds them.
-struct Tree<'a> {
-    page: String,
-    own: &'a [&'static About],
-}
-
-impl Resolver for Tree<'_> {
-    fn resolve_source<'a>(&'a self, path: &ModulePath) -> std::result::Result<Cow<'a, str>, ResolveError> {
-        let module = path.components.join("/");
-        if module == "material" {
-            return Ok(Cow::Borrowed(&self.page));
-        }
-        let own = self.own.iter().find(|a| module == format!("look/{}", a.key)).and_then(|a| a.wgsl);
-        let text = own.or_else(|| tree().iter().find(|(name, _)| *name == module).map(|(_, text)| *text));
-        text.map(Cow::Borrowed)
-            .ok_or_else(|| ResolveError::ModuleNotFound(path.clone(), "there is no such file in wgsl/".to_owned()))
-    }
 }
 
 /// What a text binds of its material, by number.

@@ -1,5 +1,6 @@
 //! Pipelines: one maker for every pass, keyed by what the shader is linked from and by fixed state, on all cores.
 
+use std::borrow::Cow;
 use std::collections::{BTreeMap, HashMap};
 use std::mem::offset_of;
 use std::sync::{Arc, Mutex, OnceLock};
@@ -174,7 +175,7 @@ impl Variants {
     fn module(&self, label: &str, linked: &Linked) -> wgpu::ShaderModule {
         self.gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some(label),
-            source: wgpu::ShaderSource::Wgsl((&*linked.text).into()),
+            source: wgpu::ShaderSource::Naga(Cow::Owned(linked.module.clone())),
         })
     }
 

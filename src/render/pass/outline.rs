@@ -35,9 +35,8 @@ pub(crate) fn request(picture: &Picture<'_>, of: &Composition, material: &Materi
         c.about.key == SECTION || counts || moves_mask(c) || (dithers && c.takes_part("samples"))
     };
     // A colour without cut-outs or numbers of parts is known well enough at vertices.
-    let is_smooth = |c: &Component| {
-        !c.takes_part("uv") && (!c.takes_part("surface") || c.about.is_model || c.about.key == "base")
-    };
+    let is_smooth =
+        |c: &Component| !c.takes_part("uv") && (!c.takes_part("surface") || c.about.is_model || c.about.key == "base");
     let is_whole = of.alpha == AlphaMode::Opaque && !vanishes && !dithers && !of.is_on("outline_part_ids");
     let at_vertices = is_tinted && !shaded && is_whole && !of.any(|c| keep(c) && !is_smooth(c));
     let mut recipe = of
