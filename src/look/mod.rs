@@ -9,6 +9,7 @@ mod natural_eyes;
 mod presets;
 mod profile_file;
 mod shade;
+mod shade_texture;
 mod tone;
 mod values;
 

@@ -6,10 +6,12 @@ use std::f32::consts::PI;
 use glam::Vec3;
 
 use super::anime::materials_of_any;
+use super::band_marks::smooth;
+use super::shade_texture::shaded;
 use super::tone::Tone;
-use crate::material::{Material, Shading, Toon};
+use crate::material::{Material, Shading, TextureRef, Toon};
 use crate::scene::painted::Painted;
-use crate::scene::{Role, Scene};
+use crate::scene::{Role, Scene, Texture};
 
 /// Chroma up to which a factor of shade counts as nobody's choice.
 const GREY: f32 = 0.045;
@@ -19,7 +21,7 @@ const FLAT: f32 = 0.9;
 const OF_ONE_HUE: f32 = 0.8;
 /// What white cloth is multiplied by: sRGB (190, 196, 226) over (240, 240, 240).
 const LAVENDER: [f32; 3] = [0.59, 0.63, 0.87];
-/// The same where skin may lie among what is white.
+/// The same where skin may lie among what is white, and no picture tells one from the other.
 const ROSY_LAVENDER: [f32; 3] = [0.6, 0.51, 0.7];
 /// Hues in Oklch, radians: of the shade of what is cool, and of what is warm.
 const BLUE: f32 = -1.5;
@@ -42,7 +44,9 @@ pub(super) fn apply(scene: &mut Scene) {
         let factor = factor(&scene.materials[*index], &toon);
         (!is_grey(factor)).then_some(factor)
     });
+    let face = role(&[Role::Face]);
     let mut chosen = BTreeMap::new();
+    let mut palettes = BTreeSet::new();
     for (index, material) in scene.materials.iter().enumerate().filter(|(i, _)| !kept.contains(i)) {
         let Some(toon) = unprepared_or_not(material) else { continue };
         let own = factor(material, &toon);
@@ -53,11 +57,17 @@ pub(super) fn apply(scene: &mut Scene) {
         let new = match (skin.contains(&index), tone) {
             (true, _) if of_file.is_some() => of_file.unwrap_or_default(),
             (true, Some(Mean { tone, .. })) => over(tone, skin_shade(tone)),
-            _ if mixed.contains(&index) => ROSY_LAVENDER,
+            _ if mixed.contains(&index) => {
+                palettes.insert(index);
+                ROSY_LAVENDER
+            }
             (false, Some(Mean { tone, coherence })) if coherence > OF_ONE_HUE || tone.chroma < 0.03 => {
                 over(tone, cloth_shade(tone))
             }
-            _ if unknown.contains(&index) => ROSY_LAVENDER,
+            _ if unknown.contains(&index) => {
+                palettes.insert(index);
+                ROSY_LAVENDER
+            }
             _ => LAVENDER,
         };
         chosen.insert(index, new);
@@ -70,11 +80,44 @@ pub(super) fn apply(scene: &mut Scene) {
             toon.shade_texture = material.base.texture;
         }
     }
+    // What bangs and maps of faces are measured by is one factor.
+    for index in palettes.difference(&face) {
+        paint_palette(scene, *index);
+    }
     for index in hair {
         let Some(Mean { tone, .. }) = mean(scene, index) else { continue };
         let lifted = lifted_black(tone);
         scene.materials[index].base.color.iter_mut().zip(lifted).for_each(|(c, by)| *c *= by);
     }
+}
+
+/// Gives a material of many colours a picture of their shades.
+fn paint_palette(scene: &mut Scene, index: usize) {
+    let base = scene.materials[index].base;
+    let [r, g, b, _] = base.color;
+    let of_base = |t: TextureRef| Some((t, *scene.textures.get(t.texture)?));
+    let Some((place, texture)) = base.texture.and_then(of_base) else { return };
+    let image = scene.images.get(texture.image);
+    let Some(shade) = image.and_then(|image| shaded(image, [r, g, b], |lit| palette_shade(Tone::of(lit)))) else {
+        return;
+    };
+    scene.images.push(shade);
+    scene.textures.push(Texture { image: scene.images.len() - 1, ..texture });
+    if let Shading::Toon(toon) = &mut scene.materials[index].shading {
+        toon.shade_color = [r, g, b];
+        toon.shade_texture = Some(TextureRef { texture: scene.textures.len() - 1, ..place });
+    }
+}
+
+/// What a colour of a palette is multiplied by: what is like skin by the rule of skin.
+fn palette_shade(lit: Tone) -> [f32; 3] {
+    let (cloth, skin) = (over(lit, cloth_shade(lit)), over(lit, skin_shade(lit)));
+    let like_skin = smooth(0.3, 0.5, lit.hue_rad)
+        * smooth(1.5, 1.25, lit.hue_rad)
+        * smooth(0.015, 0.035, lit.chroma)
+        * smooth(0.2, 0.15, lit.chroma)
+        * smooth(0.35, 0.5, lit.lightness);
+    std::array::from_fn(|c| cloth[c] + (skin[c] - cloth[c]) * like_skin)
 }
 
 /// Oklab lightness below which hair is black: its shade would not be told from its light.
@@ -146,23 +189,26 @@ fn mean(scene: &Scene, material: usize) -> Option<Mean> {
 
 /// Warm, redder, and still alive.
 fn skin_shade(lit: Tone) -> Tone {
-    let shade = Tone { lightness: lit.lightness * 0.86, chroma: lit.chroma * 1.25 + 0.025, ..lit };
-    shade.towards(0.5, 0.35)
+    // Tan skin has its colour already: more would be sunburnt.
+    let pale = smooth(0.14, 0.07, lit.chroma);
+    let shade =
+        Tone { lightness: lit.lightness * 0.86, chroma: lit.chroma * (1.0 + 0.25 * pale) + 0.025 * pale, ..lit };
+    shade.towards(0.5, 0.12 + 0.23 * pale)
 }
 
 /// What is cool turns to blue, what is warm to rose; white to lavender, black to blue-black.
 fn cloth_shade(lit: Tone) -> Tone {
-    let neutral = Tone {
-        lightness: lit.lightness * if lit.lightness > 0.8 { 0.85 } else { 0.8 },
-        chroma: 0.042 * lit.lightness.max(0.35),
-        hue_rad: BLUE,
-    };
-    if lit.chroma < 0.03 {
-        return neutral;
-    }
-    let warm = (lit.hue_rad + 0.5).rem_euclid(2.0 * PI) < 2.6;
-    let colored = Tone { lightness: lit.lightness * 0.8, chroma: lit.chroma * 1.06, ..lit };
-    colored.towards(if warm { ROSE } else { BLUE }, 0.3)
+    let lightness = lit.lightness * (0.8 + 0.05 * smooth(0.75, 0.85, lit.lightness));
+    let neutral = Tone { lightness, chroma: 0.042 * lit.lightness.max(0.35), hue_rad: BLUE };
+    let warm = (lit.hue_rad + 0.5).rem_euclid(2.0 * PI);
+    // Hues between warm and cool stay as they are: neighbours must not part.
+    let between = warm.min((warm - 2.6).abs()).min(2.0 * PI - warm);
+    // Deep colours would glow in another hue.
+    let deep = smooth(0.08, 0.2, lit.chroma);
+    let colored = Tone { lightness: lit.lightness * 0.8, chroma: lit.chroma * (1.06 - 0.14 * deep), ..lit };
+    let most = (0.3 - 0.18 * deep) * smooth(0.0, 0.3, between);
+    let turned = colored.towards(if warm < 2.6 { ROSE } else { BLUE }, most);
+    neutral.mixed(turned, smooth(0.02, 0.045, lit.chroma))
 }
 
 /// One colour over another, no channel of it so dark that all of it is lost.

@@ -71,6 +71,14 @@ impl Tone {
         Self { chroma, ..self }
     }
 
+    /// Between this and another, by a share of that.
+    pub(super) fn mixed(self, other: Self, share: f32) -> Self {
+        let ab = |t: Self| Vec2::from_angle(t.hue_rad) * t.chroma;
+        let ab = ab(self).lerp(ab(other), share);
+        let lightness = self.lightness + (other.lightness - self.lightness) * share;
+        Self { lightness, chroma: ab.length(), hue_rad: ab.y.atan2(ab.x) }
+    }
+
     /// Its hue turned towards another one by at most an angle.
     pub(super) fn towards(self, hue_rad: f32, most_rad: f32) -> Self {
         let way = (hue_rad - self.hue_rad + PI).rem_euclid(2.0 * PI) - PI;
