@@ -90,16 +90,20 @@ fn outlines(scene: &mut Scene) {
     }
 }
 
-/// How crisp the border of shade is at least on hair and clothes, as MToon measures it: one stroke of a brush.
+/// How crisp the border of shade is at least on clothes and on hair, as MToon measures it: one stroke of a brush. Round as a
+/// head is, hair spreads a border wider.
 const CRISP: f32 = 0.95;
+const CRISP_ON_HAIR: f32 = 0.985;
 
 /// Crisp borders on all but skin, whose light turns warm before it turns to shade.
 fn borders(scene: &mut Scene) {
     let skin = materials_of_any(scene, &[Role::Face, Role::Skin, Role::Mouth]);
-    let drawn = materials_of_any(scene, &[Role::Hair, Role::HairFront, Role::Cloth, Role::Accessory, Role::Other]);
-    for index in drawn.difference(&skin) {
-        if let Shading::Toon(toon) = &mut scene.materials[*index].shading {
-            toon.toony = toon.toony.max(CRISP);
+    let hair: &[Role] = &[Role::Hair, Role::HairFront];
+    for (roles, crisp) in [(hair, CRISP_ON_HAIR), (&[Role::Cloth, Role::Accessory, Role::Other], CRISP)] {
+        for index in materials_of_any(scene, roles).difference(&skin) {
+            if let Shading::Toon(toon) = &mut scene.materials[*index].shading {
+                toon.toony = toon.toony.max(crisp);
+            }
         }
     }
 }

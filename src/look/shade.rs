@@ -191,9 +191,9 @@ fn mean(scene: &Scene, material: usize) -> Option<Mean> {
 fn skin_shade(lit: Tone) -> Tone {
     // Tan skin has its colour already: more would be sunburnt.
     let pale = smooth(0.14, 0.07, lit.chroma);
-    let shade =
-        Tone { lightness: lit.lightness * 0.86, chroma: lit.chroma * (1.0 + 0.25 * pale) + 0.025 * pale, ..lit };
-    shade.towards(0.5, 0.12 + 0.23 * pale)
+    let chroma = lit.chroma * (0.9 + 0.35 * pale) + 0.025 * pale;
+    let shade = Tone { lightness: lit.lightness * (0.84 + 0.02 * pale), chroma, ..lit };
+    shade.towards(0.5, 0.1 + 0.25 * pale)
 }
 
 /// What is cool turns to blue, what is warm to rose; white to lavender, black to blue-black.
@@ -203,11 +203,12 @@ fn cloth_shade(lit: Tone) -> Tone {
     let warm = (lit.hue_rad + 0.5).rem_euclid(2.0 * PI);
     // Hues between warm and cool stay as they are: neighbours must not part.
     let between = warm.min((warm - 2.6).abs()).min(2.0 * PI - warm);
-    // Deep colours would glow in another hue.
+    // Deep colours would glow.
     let deep = smooth(0.08, 0.2, lit.chroma);
     let colored = Tone { lightness: lit.lightness * 0.8, chroma: lit.chroma * (1.06 - 0.14 * deep), ..lit };
-    let most = (0.3 - 0.18 * deep) * smooth(0.0, 0.3, between);
-    let turned = colored.towards(if warm < 2.6 { ROSE } else { BLUE }, most);
+    let target = if warm < 2.6 { ROSE } else { BLUE };
+    let away = ((target - lit.hue_rad + PI).rem_euclid(2.0 * PI) - PI).abs();
+    let turned = colored.towards(target, (0.2 * away).min(0.3) * smooth(0.0, 0.3, between));
     neutral.mixed(turned, smooth(0.02, 0.045, lit.chroma))
 }
 
