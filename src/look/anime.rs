@@ -84,7 +84,7 @@ fn outlines(scene: &mut Scene) {
     for index in materials_of_any(scene, &solid) {
         let material = &mut scene.materials[index];
         if material.alpha.mode != AlphaMode::Blend {
-            let width = OutlineWidth::Screen { height_ratio: 0.0016 };
+            let width = OutlineWidth::Screen { height_ratio: 0.0021 };
             material.outline = Some(Outline { width, tint: Some(OutlineTint::default()), ..Outline::default() });
         }
     }

@@ -21,7 +21,7 @@ const FLAT: f32 = 0.9;
 const OF_ONE_HUE: f32 = 0.8;
 /// What white cloth is multiplied by: sRGB (190, 196, 226) over (240, 240, 240).
 const LAVENDER: [f32; 3] = [0.59, 0.63, 0.87];
-/// The same where skin may lie among what is white, and no picture tells one from the other.
+/// The same where skin may lie among what is white.
 const ROSY_LAVENDER: [f32; 3] = [0.6, 0.51, 0.7];
 /// Hues in Oklch, radians: of the shade of what is cool, and of what is warm.
 const BLUE: f32 = -1.5;
@@ -109,15 +109,20 @@ fn paint_palette(scene: &mut Scene, index: usize) {
     }
 }
 
-/// What a colour of a palette is multiplied by: what is like skin by the rule of skin.
+/// What a colour of a palette is multiplied by: what is like skin between the rule of skin and what suits all, since it may be
+/// none; what is grey may be metal, on which lavender would be paint.
 fn palette_shade(lit: Tone) -> [f32; 3] {
-    let (cloth, skin) = (over(lit, cloth_shade(lit)), over(lit, skin_shade(lit)));
-    let like_skin = smooth(0.3, 0.5, lit.hue_rad)
+    let between = |a: [f32; 3], b: [f32; 3], share: f32| std::array::from_fn(|c| a[c] + (b[c] - a[c]) * share);
+    let grey = smooth(0.045, 0.02, lit.chroma) * smooth(0.9, 0.75, lit.lightness);
+    let cloth = over(lit, cloth_shade(lit));
+    let cloth = between(cloth, [luminance(cloth); 3], 0.5 * grey);
+    let skin: [f32; 3] = between(over(lit, skin_shade(lit)), ROSY_LAVENDER, 0.55);
+    let like_skin = smooth(0.55, 0.75, lit.hue_rad)
         * smooth(1.5, 1.25, lit.hue_rad)
         * smooth(0.015, 0.035, lit.chroma)
         * smooth(0.2, 0.15, lit.chroma)
         * smooth(0.35, 0.5, lit.lightness);
-    std::array::from_fn(|c| cloth[c] + (skin[c] - cloth[c]) * like_skin)
+    between(cloth, skin, like_skin)
 }
 
 /// Oklab lightness below which hair is black: its shade would not be told from its light.
@@ -208,7 +213,7 @@ fn cloth_shade(lit: Tone) -> Tone {
     let colored = Tone { lightness: lit.lightness * 0.8, chroma: lit.chroma * (1.06 - 0.14 * deep), ..lit };
     let target = if warm < 2.6 { ROSE } else { BLUE };
     let away = ((target - lit.hue_rad + PI).rem_euclid(2.0 * PI) - PI).abs();
-    let turned = colored.towards(target, (0.2 * away).min(0.3) * smooth(0.0, 0.3, between));
+    let turned = colored.towards(target, (0.17 * away).min(0.3) * smooth(0.0, 0.3, between));
     neutral.mixed(turned, smooth(0.02, 0.045, lit.chroma))
 }
 
