@@ -116,7 +116,7 @@ fn palette_shade(lit: Tone) -> [f32; 3] {
     let grey = smooth(0.045, 0.02, lit.chroma) * smooth(0.9, 0.75, lit.lightness);
     let cloth = over(lit, cloth_shade(lit));
     let cloth = between(cloth, [luminance(cloth); 3], 0.5 * grey);
-    let skin: [f32; 3] = between(over(lit, skin_shade(lit)), ROSY_LAVENDER, 0.55);
+    let skin: [f32; 3] = between(over(lit, skin_shade(lit)), ROSY_LAVENDER, 0.75);
     let like_skin = smooth(0.55, 0.75, lit.hue_rad)
         * smooth(1.5, 1.25, lit.hue_rad)
         * smooth(0.015, 0.035, lit.chroma)

@@ -50,15 +50,20 @@ impl Tone {
 
     /// The linear colour, nearer to grey where it would leave 0..=1.
     pub(super) fn to_linear(self) -> [f32; 3] {
-        let mut chroma = self.chroma;
-        for _ in 0..12 {
+        let fits = |chroma: f32| {
             let linear = self.with_chroma(chroma).unbound();
-            if linear.min_element() >= -1e-4 && linear.max_element() <= 1.0001 {
-                return linear.clamp(Vec3::ZERO, Vec3::ONE).to_array();
-            }
-            chroma *= 0.85;
+            linear.min_element() >= -1e-4 && linear.max_element() <= 1.0001
+        };
+        let [mut inside, mut outside] = [0.0, self.chroma];
+        if fits(outside) {
+            inside = outside;
         }
-        self.with_chroma(0.0).unbound().clamp(Vec3::ZERO, Vec3::ONE).to_array()
+        // Halved and not stepped, so that neighbours stay neighbours.
+        for _ in 0..12 {
+            let middle = 0.5 * (inside + outside);
+            *(if fits(middle) { &mut inside } else { &mut outside }) = middle;
+        }
+        self.with_chroma(inside).unbound().clamp(Vec3::ZERO, Vec3::ONE).to_array()
     }
 
     fn unbound(self) -> Vec3 {
