@@ -266,6 +266,43 @@ mod tests {
     }
 
     #[test]
+    fn palettes_keep_skin_warm_and_metal_grey() {
+        let shade = |hex: &str| {
+            let lit = Srgb::from_hex(hex).unwrap().to_linear().0;
+            let factor = palette_shade(Tone::of(lit));
+            LinearRgb(std::array::from_fn(|c| lit[c] * factor[c])).to_srgb().0.map(i32::from)
+        };
+        let [r, g, b] = shade("#ffcda5");
+        assert!(r > g + 35 && g > b, "{r} {g} {b}");
+        let [r, _, b] = shade("#808a8c");
+        assert!((0..25).contains(&(b - r)), "{r} {b}");
+        let [r, g, b] = shade("#f0f0f0");
+        assert!(b > r + 20 && b > g + 20, "{r} {g} {b}");
+    }
+
+    #[test]
+    fn shades_of_neighbours_are_neighbours() {
+        // Along lines through the colours of a screen, in steps of its codes.
+        let line = |from: [f32; 3], to: [f32; 3]| {
+            (0..=255).map(move |i| {
+                let encoded: [f32; 3] = std::array::from_fn(|c| from[c] + (to[c] - from[c]) * i as f32 / 255.0);
+                let lit = encoded.map(crate::color::linear_from_srgb);
+                let factor = palette_shade(Tone::of(lit));
+                let shade: [f32; 3] = std::array::from_fn(|c| crate::color::srgb_from_linear(lit[c] * factor[c]));
+                shade
+            })
+        };
+        let corner = |n: usize| std::array::from_fn(|c| (n >> c & 1) as f32);
+        for (from, to) in (0..8).flat_map(|a| (0..8).map(move |b| (a, b))) {
+            let shades: Vec<[f32; 3]> = line(corner(from), corner(to)).collect();
+            for pair in shades.windows(2) {
+                let most = (0..3).map(|c| (pair[1][c] - pair[0][c]).abs()).fold(0.0, f32::max);
+                assert!(most < 6.0 / 255.0, "{:?} to {:?}: {pair:?}", corner(from), corner(to));
+            }
+        }
+    }
+
+    #[test]
     fn yellow_turns_towards_orange() {
         let [r, g, b] = shaded("#f2d040", cloth_shade);
         assert!(r - g > 45 && b < g, "{r} {g} {b}");

@@ -3,6 +3,7 @@
 //! Source: Björn Ottosson, "A perceptual color space for image processing" (2020), Oklab and its polar form.
 
 use std::f32::consts::PI;
+use std::sync::LazyLock;
 
 use glam::{Mat3, Vec2, Vec3};
 
@@ -40,6 +41,9 @@ const LAB_FROM_ROOTS: Mat3 = Mat3::from_cols_array(&[
     -0.808_675_77,
 ]);
 
+/// Of the second matrix, and of the first.
+static INVERSES: LazyLock<[Mat3; 2]> = LazyLock::new(|| [LAB_FROM_ROOTS.inverse(), LMS_FROM_LINEAR.inverse()]);
+
 impl Tone {
     /// Of a linear colour.
     pub(super) fn of(linear: [f32; 3]) -> Self {
@@ -57,19 +61,21 @@ impl Tone {
         let [mut inside, mut outside] = [0.0, self.chroma];
         if fits(outside) {
             inside = outside;
-        }
-        // Halved and not stepped, so that neighbours stay neighbours.
-        for _ in 0..12 {
-            let middle = 0.5 * (inside + outside);
-            *(if fits(middle) { &mut inside } else { &mut outside }) = middle;
+        } else {
+            // Halved and not stepped, so that neighbours stay neighbours.
+            for _ in 0..12 {
+                let middle = 0.5 * (inside + outside);
+                *(if fits(middle) { &mut inside } else { &mut outside }) = middle;
+            }
         }
         self.with_chroma(inside).unbound().clamp(Vec3::ZERO, Vec3::ONE).to_array()
     }
 
     fn unbound(self) -> Vec3 {
         let ab = Vec2::from_angle(self.hue_rad) * self.chroma;
-        let roots = LAB_FROM_ROOTS.inverse() * Vec3::new(self.lightness, ab.x, ab.y);
-        LMS_FROM_LINEAR.inverse() * (roots * roots * roots)
+        let [roots_from_lab, linear_from_lms] = *INVERSES;
+        let roots = roots_from_lab * Vec3::new(self.lightness, ab.x, ab.y);
+        linear_from_lms * (roots * roots * roots)
     }
 
     pub(super) fn with_chroma(self, chroma: f32) -> Self {
