@@ -81,8 +81,9 @@ pub(super) fn apply(scene: &mut Scene) {
         }
     }
     // What bangs and maps of faces are measured by is one factor.
+    let mut painted = BTreeMap::new();
     for index in palettes.difference(&face) {
-        paint_palette(scene, *index);
+        paint_palette(scene, *index, &mut painted);
     }
     for index in hair {
         let Some(Mean { tone, .. }) = mean(scene, index) else { continue };
@@ -91,21 +92,28 @@ pub(super) fn apply(scene: &mut Scene) {
     }
 }
 
-/// Gives a material of many colours a picture of their shades.
-fn paint_palette(scene: &mut Scene, index: usize) {
+/// Gives a material of many colours a picture of their shades. `painted`: textures that have one, by what they are multiplied
+/// with; materials share them.
+fn paint_palette(scene: &mut Scene, index: usize, painted: &mut BTreeMap<(usize, [u32; 3]), usize>) {
     let base = scene.materials[index].base;
     let [r, g, b, _] = base.color;
     let of_base = |t: TextureRef| Some((t, *scene.textures.get(t.texture)?));
     let Some((place, texture)) = base.texture.and_then(of_base) else { return };
-    let image = scene.images.get(texture.image);
-    let Some(shade) = image.and_then(|image| shaded(image, [r, g, b], |lit| palette_shade(Tone::of(lit)))) else {
-        return;
+    let key = (place.texture, [r, g, b].map(f32::to_bits));
+    let shade = if let Some(found) = painted.get(&key) {
+        *found
+    } else {
+        let image = scene.images.get(texture.image);
+        let shade = image.and_then(|image| shaded(image, [r, g, b], |lit| palette_shade(Tone::of(lit))));
+        let Some(shade) = shade else { return };
+        scene.images.push(shade);
+        scene.textures.push(Texture { image: scene.images.len() - 1, ..texture });
+        painted.insert(key, scene.textures.len() - 1);
+        scene.textures.len() - 1
     };
-    scene.images.push(shade);
-    scene.textures.push(Texture { image: scene.images.len() - 1, ..texture });
     if let Shading::Toon(toon) = &mut scene.materials[index].shading {
         toon.shade_color = [r, g, b];
-        toon.shade_texture = Some(TextureRef { texture: scene.textures.len() - 1, ..place });
+        toon.shade_texture = Some(TextureRef { texture: shade, ..place });
     }
 }
 

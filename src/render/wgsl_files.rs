@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::collections::HashMap;
 use std::path::PathBuf;
-use std::sync::{Mutex, OnceLock};
+use std::sync::{Arc, Mutex, OnceLock};
 
 use wesl::syntax::{GlobalDeclaration, Ident, TranslationUnit};
 use wesl::{Diagnostic, ModulePath, ResolveError, Resolver};
@@ -43,7 +43,7 @@ pub(crate) fn file(module: &str) -> &'static str {
 }
 
 /// Files that were parsed already, by module: most shaders need most of them.
-pub(super) type Parsed = Mutex<HashMap<String, TranslationUnit>>;
+pub(super) type Parsed = Mutex<HashMap<String, Arc<TranslationUnit>>>;
 
 /// Files as the linker of one shader finds them.
 pub(super) struct Tree<'a> {
@@ -68,8 +68,10 @@ impl Resolver for Tree<'_> {
 
     fn resolve_module(&self, path: &ModulePath) -> Result<TranslationUnit, ResolveError> {
         let module = path.components.join("/");
-        if let Some(found) = lock(self.parsed).get(&module) {
-            return Ok(with_own_names(found));
+        // Others go on while this one copies.
+        let found = lock(self.parsed).get(&module).cloned();
+        if let Some(found) = found {
+            return Ok(with_own_names(&found));
         }
         let source = self.resolve_source(path)?;
         let parsed = source.parse().map_err(|e| {
@@ -77,7 +79,7 @@ impl Resolver for Tree<'_> {
         })?;
         // The page is another one for each shader.
         if module != "material" {
-            lock(self.parsed).insert(module, with_own_names(&parsed));
+            lock(self.parsed).insert(module, Arc::new(with_own_names(&parsed)));
         }
         Ok(parsed)
     }
