@@ -47,8 +47,11 @@ pub mod picture;
 pub mod render;
 pub mod scene;
 pub mod sdf;
+mod sets;
 pub mod skin;
+mod smoothstep;
 mod stage;
+mod tone;
 
 pub use error::{Error, Result};
 pub use glam;

@@ -7,6 +7,7 @@ use glam::{DMat4, DVec3, Mat3, Mat4, Vec3};
 use super::EyeDimensions;
 use super::sphere::{Sample, Sphere};
 use crate::scene::{HumanBone, Primitive, Scene};
+use crate::sets::Sets;
 
 /// Place, size and direction of an eye at rest, in the space that its mesh was brought to.
 ///
@@ -195,13 +196,13 @@ pub(super) fn pieces_of(primitive: &Primitive, rest: Mat4) -> Result<Vec<Vec<Sam
         primitive.positions.iter().map(|p| rest.transform_point3(Vec3::from(*p).as_dvec3())).collect();
     let triangles = primitive.indices.as_chunks::<3>().0;
     let is_sound = |i: &u32| points.get(*i as usize).is_some_and(|p| p.is_finite());
-    let roots = roots_of(primitive).filter(|_| triangles.as_flattened().iter().all(is_sound));
-    let Some(roots) = roots else { return Err(NoEyeFrame::Broken) };
+    let numbers = piece_numbers(primitive).filter(|_| triangles.as_flattened().iter().all(is_sound));
+    let Some(numbers) = numbers else { return Err(NoEyeFrame::Broken) };
     let mut pieces = vec![Vec::new(); points.len()];
     for triangle in triangles {
         let [a, b, c] = triangle.map(|i| points[i as usize]);
         let area = (b - a).cross(c - a).length() / 6.0;
-        let piece = &mut pieces[roots[triangle[0] as usize]];
+        let piece = &mut pieces[numbers[triangle[0] as usize]];
         if area > 0.0 {
             piece.extend([a, b, c].map(|at| Sample { at, area }));
         }
@@ -210,29 +211,17 @@ pub(super) fn pieces_of(primitive: &Primitive, rest: Mat4) -> Result<Vec<Vec<Sam
     Ok(pieces)
 }
 
-/// By vertex, the one that stands for all that hang together with it by triangles; `None` where a triangle lacks a corner.
-pub(super) fn roots_of(primitive: &Primitive) -> Option<Vec<usize>> {
-    let mut roots: Vec<usize> = (0..primitive.positions.len()).collect();
-    for corners in primitive.indices.as_chunks::<3>().0 {
-        if corners.iter().any(|c| *c as usize >= roots.len()) {
+/// By vertex, the piece that it belongs to, of what hangs together by triangles; `None` where a triangle lacks a corner.
+pub(super) fn piece_numbers(primitive: &Primitive) -> Option<Vec<usize>> {
+    let mut sets = Sets::new(primitive.positions.len());
+    for [a, b, c] in primitive.indices.as_chunks::<3>().0.iter().map(|t| t.map(|i| i as usize)) {
+        if a.max(b).max(c) >= primitive.positions.len() {
             return None;
         }
-        for other in &corners[1..] {
-            let (a, b) = (root(&mut roots, corners[0] as usize), root(&mut roots, *other as usize));
-            roots[b] = a;
-        }
+        sets.join(a, b);
+        sets.join(a, c);
     }
-    (0..roots.len()).for_each(|v| roots[v] = root(&mut roots, v));
-    Some(roots)
-}
-
-/// The vertex that stands for all that hang together with one.
-fn root(roots: &mut [usize], mut of: usize) -> usize {
-    while roots[of] != of {
-        roots[of] = roots[roots[of]];
-        of = roots[of];
-    }
-    of
+    Some(sets.numbered().0)
 }
 
 /// Pieces that belong to one eye: along the longest side of the whole, where two eyes lie side by side, there is a gap.

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use glam::{DMat3, DVec3, Mat3, Mat4, Vec2, Vec3};
 
-use super::frame::{EyeBone, EyeFrame, NoEyeFrame, roots_of};
+use super::frame::{EyeBone, EyeFrame, NoEyeFrame, piece_numbers};
 use super::lids::{self, Lids, lids};
 use super::plane::IrisPlane;
 use crate::material::TextureRef;
@@ -316,12 +316,12 @@ fn iris_uv(
 ) -> Result<Option<[[f32; 3]; 2]>, String> {
     let mut shells: HashMap<(u32, usize), Vec<(Vec2, Vec2)>> = HashMap::new();
     for part in parts {
-        let Some(roots) = roots_of(part.primitive) else { continue };
+        let Some(pieces) = piece_numbers(part.primitive) else { continue };
         for (v, position) in part.positions.iter().enumerate() {
             let place = of_eye.transform_point3(*position);
             let q = place.truncate() / share;
             let (true, Some(uv)) = (place.z > FRONT && q.length() <= ON_IRIS, part.uv(picture, v)) else { continue };
-            shells.entry((part.id, roots[v])).or_default().push((q, uv));
+            shells.entry((part.id, pieces[v])).or_default().push((q, uv));
         }
     }
     let is_whole = |shell: &Vec<(Vec2, Vec2)>| shell.iter().any(|(q, _)| q.length() < INNER);

@@ -2,6 +2,8 @@
 
 use std::collections::{BTreeMap, HashMap};
 
+use crate::sets::Sets;
+
 /// Share of the border of a patch along which it meets another one to be the same strip, as the two sides of a lock do. Cards
 /// that touch with one side, or at their roots, share less.
 const SEAM: f32 = 0.6;
@@ -9,21 +11,6 @@ const SEAM: f32 = 0.6;
 /// Share of the area in texture coordinates that two patches have in common from which on they show the same picture twice, as
 /// cards do that lie side by side.
 const SAME_PICTURE: f32 = 0.5;
-
-/// One number for each vertex: those at the same place have the same one. The second is how many there are.
-pub(super) fn welded(positions: &[[f32; 3]]) -> (Vec<u32>, usize) {
-    let mut known = HashMap::new();
-    // 0 and -0 are one place.
-    let key = |p: &[f32; 3]| p.map(|x| (x + 0.0).to_bits());
-    let numbers = positions
-        .iter()
-        .map(|p| {
-            let next = known.len() as u32;
-            *known.entry(key(p)).or_insert(next)
-        })
-        .collect();
-    (numbers, known.len())
-}
 
 /// The patch of each triangle, numbered in the order of the triangles, and how many there are. `triangles` are indices;
 /// `places` says which of them stand at the same place.
@@ -45,13 +32,8 @@ pub(super) fn patches(
     for [a, b] in seams(&edges, &mut islands, triangles, positions, uvs) {
         all.join(a, b);
     }
-    let mut numbers = HashMap::new();
-    let of = (0..triangles.len()).map(|t| {
-        let next = numbers.len() as u32;
-        *numbers.entry(all.root(t)).or_insert(next)
-    });
-    let of: Vec<u32> = of.collect();
-    (of, numbers.len())
+    let (of, count) = all.numbered();
+    (of.into_iter().map(|n| n as u32).collect(), count)
 }
 
 /// One triangle's side of an edge.
@@ -147,27 +129,4 @@ fn overlap(a: &[[f32; 2]; 2], b: &[[f32; 2]; 2]) -> f32 {
         (common.max(0.0) / smaller.max(1e-9)).min(1.0)
     };
     share(0) * share(1)
-}
-
-/// Sets that grow together.
-#[derive(Clone)]
-struct Sets(Vec<usize>);
-
-impl Sets {
-    fn new(count: usize) -> Self {
-        Self((0..count).collect())
-    }
-
-    fn root(&mut self, mut of: usize) -> usize {
-        while self.0[of] != of {
-            self.0[of] = self.0[self.0[of]];
-            of = self.0[of];
-        }
-        of
-    }
-
-    fn join(&mut self, a: usize, b: usize) {
-        let (a, b) = (self.root(a), self.root(b));
-        self.0[a.max(b)] = a.min(b);
-    }
 }

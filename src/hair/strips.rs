@@ -6,8 +6,8 @@ use glam::{Mat4, Vec2, Vec3};
 use serde::{Deserialize, Serialize};
 
 use super::axis::Patch;
-use super::patches::{patches, welded};
-use crate::scene::Primitive;
+use super::patches::patches;
+use crate::scene::{Primitive, welded};
 
 /// Strips that a piece of hair may have: more are a heap of loose triangles.
 pub const MAX_STRIPS: usize = 16_384;

@@ -24,6 +24,7 @@ mod fault;
 mod files;
 mod geometry;
 mod graph;
+mod head_parts;
 pub mod image;
 mod json;
 mod material;
@@ -34,7 +35,7 @@ mod normals;
 mod pbr;
 mod primitive;
 mod radiance;
-pub(crate) mod role;
+mod role;
 mod skin;
 mod spring;
 mod strands;
@@ -164,6 +165,7 @@ fn read(bytes: &[u8], folder: Option<&Path>, limits: &Limits) -> fault::Result<S
     scene.images = textures.decode(&views, folder, limits, &mut warnings)?;
     scene.textures = textures.textures;
     role::assign(&mut scene);
+    head_parts::divide(&mut scene);
     checks::check(&scene, &mut warnings);
     scene.warnings = warnings.finish();
     Ok(scene)

@@ -44,8 +44,8 @@ const WORDS: &[Words] = &[
     Words {
         role: Role::Accessory,
         whole: &[
-            "hat", "cap", "horn", "horns", "acc", "gear", "belt", "metal", "plastic", "halo", "crown", "tail", "wing",
-            "wings",
+            "hat", "cap", "helmet", "horn", "horns", "acc", "gear", "belt", "metal", "plastic", "halo", "crown",
+            "tail", "wing", "wings",
         ],
         part: &[
             "glass", "megane", "眼鏡", "眼镜", "メガネ", "めがね", "earring", "accessor", "ribbon", "necklace",
@@ -157,7 +157,7 @@ const WORDS: &[Words] = &[
 ];
 
 /// Lower-case words of a name; capitals after small letters start a word, as in `HairBack`.
-pub(crate) fn words(name: &str) -> Vec<String> {
+fn words(name: &str) -> Vec<String> {
     let mut spaced = String::new();
     let mut small = false;
     for c in name.chars().take(200) {

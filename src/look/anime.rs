@@ -6,14 +6,14 @@ use glam::Vec3;
 
 use super::{Anime, hair_band, shade};
 use crate::color::LinearRgb;
-use crate::import::role::words;
 use crate::material::{
     AlphaMode, Authored, BangsShadow, CastShadow, DepthRim, Diamond, FacePaint, FaceShadow, Fire, Fluff, FurDetail,
     Gem, Glow, Highlight, Layer, Material, Outline, OutlineTint, OutlineWidth, RampMaps, ShadeRamp, Shading,
     ShapedHighlight, Sparkle, Stocking, Substance, TintSource, Transition,
 };
-use crate::scene::{Bangs, Bloom, EyesThrough, HumanBone, Node, Post, Role, Scene, SelfShadow, Warning};
+use crate::scene::{Bangs, Bloom, EyesThrough, Post, Role, Scene, SelfShadow, Warning};
 use crate::sdf::{FaceMap, FaceStyle, Feature, Guide, Sides};
+use crate::smoothstep::smoothstep;
 
 /// Materials that get a face's shadow: characters have one to three, and a file of thousands must not fill the memory.
 const MOST_FACES: usize = 16;
@@ -112,9 +112,7 @@ fn borders(scene: &mut Scene) {
 /// draws the shade of each, and their edges would tear all others.
 fn self_shadow(scene: &mut Scene) {
     // What nobody knows for a face would be cut across its eyes by the shadow of a hat.
-    let is_head = |node: &Node| words(&node.name).iter().any(|word| word == "head");
-    let has_head = scene.bone_node(HumanBone::Head).is_some() || scene.nodes.iter().any(is_head);
-    if has_head && materials_of(scene, Role::Face).is_empty() {
+    if scene.head_node().is_some() && materials_of(scene, Role::Face).is_empty() {
         let message = "cast shadows are left out: no part is known to be the face, which those of a hat would darken; \
             say which one is, as in [parts] Head = \"face\"";
         scene.warnings.push(Warning { pointer: "/meshes".to_owned(), message: message.to_owned() });
@@ -152,8 +150,7 @@ fn round_hair(scene: &mut Scene) {
             let own = Vec3::from(*normal);
             let round = back.transform_vector3(round).normalize_or(own);
             // The inner side of a lock keeps its own.
-            let t = ((own.dot(round) + 0.2) / 0.6).clamp(0.0, 1.0);
-            let turned = own.lerp(round, ROUNDED * t * t * (3.0 - 2.0 * t));
+            let turned = own.lerp(round, ROUNDED * smoothstep(-0.2, 0.4, own.dot(round)));
             *normal = turned.normalize_or(own).to_array();
         }
     });

@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use super::BandStyle;
 use crate::scene::Image;
+use crate::smoothstep::smoothstep;
 
 /// Cells of the picture from left to right: first those of the ring, then a row of marks for each strength.
 pub(super) const CELLS: usize = RING_CELLS + LEVELS * VARIANTS;
@@ -26,12 +27,6 @@ fn hash(x: usize, seed: u32) -> f32 {
     h = (h ^ (h >> 15)).wrapping_mul(0x2c1b_3c6d);
     h = (h ^ (h >> 12)).wrapping_mul(0x297a_2d39);
     (h ^ (h >> 15)) as f32 / u32::MAX as f32
-}
-
-/// 0 at `from`, 1 at `to`, smooth between; either may be the greater.
-pub(super) fn smooth(from: f32, to: f32, x: f32) -> f32 {
-    let t = ((x - from) / (to - from)).clamp(0.0, 1.0);
-    t * t * (3.0 - 2.0 * t)
 }
 
 /// The upper and lower edge of a mark at `t` across a lock, in thicknesses below the band's middle; of the same height where
@@ -89,18 +84,18 @@ impl Column {
     fn cover(self, y: f32) -> f32 {
         let [top, bottom] = self.edges;
         let edge = 1.2 / (THICK * HEIGHT as f32);
-        let inside = smooth(top - edge, top + edge, y) * smooth(bottom + edge, bottom - edge, y);
+        let inside = smoothstep(top - edge, top + edge, y) * smoothstep(bottom + edge, bottom - edge, y);
         // A mark that ends in a point has no width there to fill a texel.
-        self.strength * inside * smooth(0.0, 2.0 * edge, bottom - top)
+        self.strength * inside * smoothstep(0.0, 2.0 * edge, bottom - top)
     }
 }
 
 /// The ring at a share of the way from the front to the back.
 fn ring(style: BandStyle, around: f32) -> Column {
-    let strength = smooth(0.56, 0.27, around);
+    let strength = smoothstep(0.56, 0.27, around);
     if style == BandStyle::Ring {
         let wave = 0.05 * (around * 40.0).sin() + 0.04 * (around * 93.0 + 1.0).sin();
-        let half = 0.36 * smooth(0.6, 0.2, around);
+        let half = 0.36 * smoothstep(0.6, 0.2, around);
         return Column { edges: [wave - half, wave + half], strength };
     }
     let cells = RING_CELLS as f32;

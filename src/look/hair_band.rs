@@ -7,11 +7,12 @@ use std::f32::consts::PI;
 use glam::{Mat4, Vec3};
 
 use super::BandStyle;
-use super::band_marks::{CELLS, LEVELS, RING_CELLS, VARIANTS, paint, smooth};
-use super::tone::Tone;
+use super::band_marks::{CELLS, LEVELS, RING_CELLS, VARIANTS, paint};
 use crate::material::{Highlight, TextureRef};
 use crate::scene::painted::Painted;
 use crate::scene::{Filter, Image, Primitive, Sampler, Scene, Texture, Warning, Wrap};
+use crate::smoothstep::smoothstep;
+use crate::tone::Tone;
 
 /// Angle from above of the band's middle, radians; light and view from the front move it up from there.
 const MIDDLE: f32 = 1.05;
@@ -162,8 +163,8 @@ fn light(scene: &Scene, material: usize) -> Light {
     };
     let spread = at(0.95) - at(0.5);
     let is_painted = spread > 0.12;
-    let dark = smooth(0.42, 0.22, hair.lightness);
-    let pale = smooth(0.78, 0.95, hair.lightness);
+    let dark = smoothstep(0.42, 0.22, hair.lightness);
+    let pale = smoothstep(0.78, 0.95, hair.lightness);
     let colored =
         Tone { lightness: (hair.lightness + 0.17).min(0.985), chroma: hair.chroma * 0.72, ..hair.towards(1.6, 0.12) };
     let sheen = Tone { lightness: (hair.lightness + 0.3).max(0.43), chroma: 0.055, hue_rad: -1.5 };
@@ -188,8 +189,7 @@ fn wrap(
             return;
         }
         let places: Vec<Place> = part.positions.iter().map(|p| place(*p, matrix, middle)).collect();
-        let locks = locks(part);
-        let count = locks.iter().max().map_or(0, |n| n + 1);
+        let (locks, count) = part.pieces();
         let mut members = vec![Vec::new(); count];
         for (vertex, lock) in locks.iter().enumerate() {
             members[*lock].push(vertex);
@@ -214,37 +214,6 @@ fn place(position: [f32; 3], matrix: Mat4, middle: Vec3) -> Place {
         from_above: direction.y.clamp(-1.0, 1.0).acos(),
         distance: out.length(),
     }
-}
-
-/// Number of the piece of mesh that each vertex belongs to: pieces hang together by triangles, and where places agree.
-fn locks(part: &Primitive) -> Vec<usize> {
-    let mut parent: Vec<usize> = (0..part.positions.len()).collect();
-    fn root(parent: &mut [usize], mut i: usize) -> usize {
-        while parent[i] != i {
-            parent[i] = parent[parent[i]];
-            i = parent[i];
-        }
-        i
-    }
-    let mut join = |a: usize, b: usize| {
-        let (a, b) = (root(&mut parent, a), root(&mut parent, b));
-        parent[a.max(b)] = a.min(b);
-    };
-    let mut order: Vec<usize> = (0..part.positions.len()).collect();
-    let bits = |v: usize| part.positions[v].map(f32::to_bits);
-    order.sort_unstable_by_key(|v| bits(*v));
-    order.windows(2).filter(|pair| bits(pair[0]) == bits(pair[1])).for_each(|pair| join(pair[0], pair[1]));
-    for t in part.indices.chunks_exact(3) {
-        join(t[0] as usize, t[1] as usize);
-        join(t[1] as usize, t[2] as usize);
-    }
-    let mut numbers = BTreeMap::new();
-    (0..part.positions.len())
-        .map(|v| {
-            let count = numbers.len();
-            *numbers.entry(root(&mut parent, v)).or_insert(count)
-        })
-        .collect()
 }
 
 /// Where on the marks' picture a lock lies.
@@ -307,7 +276,7 @@ fn cell(part: &Primitive, places: &[Place], lock: &[usize], number: usize, heigh
     if high - low > WIDEST || style == BandStyle::Ring {
         return Cell::Ring;
     }
-    let left = smooth(FADES[1], FADES[0], middle.abs());
+    let left = smoothstep(FADES[1], FADES[0], middle.abs());
     let level = (left * LEVELS as f32).round() as usize;
     // Narrow ones have fewer points.
     let wide = usize::from(high - low > 0.28);

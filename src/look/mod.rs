@@ -10,7 +10,6 @@ mod presets;
 mod profile_file;
 mod shade;
 mod shade_texture;
-mod tone;
 mod values;
 
 pub use look_file::LookFile;

@@ -6,12 +6,12 @@ use std::f32::consts::PI;
 use glam::Vec3;
 
 use super::anime::materials_of_any;
-use super::band_marks::smooth;
 use super::shade_texture::shaded;
-use super::tone::Tone;
 use crate::material::{Material, Shading, TextureRef, Toon};
 use crate::scene::painted::Painted;
 use crate::scene::{Role, Scene, Texture};
+use crate::smoothstep::smoothstep;
+use crate::tone::Tone;
 
 /// Chroma up to which a factor of shade counts as nobody's choice.
 const GREY: f32 = 0.045;
@@ -45,6 +45,8 @@ pub(super) fn apply(scene: &mut Scene) {
         (!is_grey(factor)).then_some(factor)
     });
     let face = role(&[Role::Face]);
+    let picture = |index: &usize| Some(scene.materials.get(*index)?.base.texture?.texture);
+    let of_others: BTreeSet<usize> = others.iter().filter_map(picture).collect();
     let mut chosen = BTreeMap::new();
     let mut palettes = BTreeSet::new();
     for (index, material) in scene.materials.iter().enumerate().filter(|(i, _)| !kept.contains(i)) {
@@ -56,6 +58,10 @@ pub(super) fn apply(scene: &mut Scene) {
         let tone = mean(scene, index);
         let new = match (skin.contains(&index), tone) {
             (true, _) if of_file.is_some() => of_file.unwrap_or_default(),
+            // Hands are painted by what the palette's picture says.
+            (true, Some(Mean { tone, .. })) if picture(&index).is_some_and(|p| of_others.contains(&p)) => {
+                palette_shade(tone)
+            }
             (true, Some(Mean { tone, .. })) => over(tone, skin_shade(tone)),
             _ if mixed.contains(&index) => {
                 palettes.insert(index);
@@ -121,16 +127,11 @@ fn paint_palette(scene: &mut Scene, index: usize, painted: &mut BTreeMap<(usize,
 /// none; what is grey may be metal, on which lavender would be paint.
 fn palette_shade(lit: Tone) -> [f32; 3] {
     let between = |a: [f32; 3], b: [f32; 3], share: f32| std::array::from_fn(|c| a[c] + (b[c] - a[c]) * share);
-    let grey = smooth(0.045, 0.02, lit.chroma) * smooth(0.9, 0.75, lit.lightness);
+    let grey = smoothstep(0.045, 0.02, lit.chroma) * smoothstep(0.9, 0.75, lit.lightness);
     let cloth = over(lit, cloth_shade(lit));
     let cloth = between(cloth, [luminance(cloth); 3], 0.5 * grey);
     let skin: [f32; 3] = between(over(lit, skin_shade(lit)), ROSY_LAVENDER, 0.75);
-    let like_skin = smooth(0.55, 0.75, lit.hue_rad)
-        * smooth(1.5, 1.25, lit.hue_rad)
-        * smooth(0.015, 0.035, lit.chroma)
-        * smooth(0.2, 0.15, lit.chroma)
-        * smooth(0.35, 0.5, lit.lightness);
-    between(cloth, skin, like_skin)
+    between(cloth, skin, lit.like_skin())
 }
 
 /// Oklab lightness below which hair is black: its shade would not be told from its light.
@@ -203,7 +204,7 @@ fn mean(scene: &Scene, material: usize) -> Option<Mean> {
 /// Warm, redder, and still alive.
 fn skin_shade(lit: Tone) -> Tone {
     // Tan skin has its colour already: more would be sunburnt.
-    let pale = smooth(0.14, 0.07, lit.chroma);
+    let pale = smoothstep(0.14, 0.07, lit.chroma);
     let chroma = lit.chroma * (0.9 + 0.35 * pale) + 0.025 * pale;
     let shade = Tone { lightness: lit.lightness * (0.84 + 0.02 * pale), chroma, ..lit };
     shade.towards(0.5, 0.1 + 0.25 * pale)
@@ -211,18 +212,18 @@ fn skin_shade(lit: Tone) -> Tone {
 
 /// What is cool turns to blue, what is warm to rose; white to lavender, black to blue-black.
 fn cloth_shade(lit: Tone) -> Tone {
-    let lightness = lit.lightness * (0.8 + 0.05 * smooth(0.75, 0.85, lit.lightness));
+    let lightness = lit.lightness * (0.8 + 0.05 * smoothstep(0.75, 0.85, lit.lightness));
     let neutral = Tone { lightness, chroma: 0.042 * lit.lightness.max(0.35), hue_rad: BLUE };
     let warm = (lit.hue_rad + 0.5).rem_euclid(2.0 * PI);
     // Hues between warm and cool stay as they are: neighbours must not part.
     let between = warm.min((warm - 2.6).abs()).min(2.0 * PI - warm);
     // Deep colours would glow.
-    let deep = smooth(0.08, 0.2, lit.chroma);
+    let deep = smoothstep(0.08, 0.2, lit.chroma);
     let colored = Tone { lightness: lit.lightness * 0.8, chroma: lit.chroma * (1.06 - 0.14 * deep), ..lit };
     let target = if warm < 2.6 { ROSE } else { BLUE };
     let away = ((target - lit.hue_rad + PI).rem_euclid(2.0 * PI) - PI).abs();
-    let turned = colored.towards(target, (0.17 * away).min(0.3) * smooth(0.0, 0.3, between));
-    neutral.mixed(turned, smooth(0.02, 0.045, lit.chroma))
+    let turned = colored.towards(target, (0.17 * away).min(0.3) * smoothstep(0.0, 0.3, between));
+    neutral.mixed(turned, smoothstep(0.02, 0.045, lit.chroma))
 }
 
 /// One colour over another, no channel of it so dark that all of it is lost.

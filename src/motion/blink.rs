@@ -1,5 +1,7 @@
 //! Blinking, by a schedule that a seed and the time alone decide.
 
+use crate::smoothstep::smoothstep;
+
 /// Blinks now and then: about every `every_s`, seldom twice in a row. The same seed blinks at the same moments.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Blink {
@@ -45,11 +47,8 @@ impl Blink {
 }
 
 fn closed(since: f32) -> f32 {
-    let smooth = |t: f32| {
-        let t = t.clamp(0.0, 1.0);
-        t * t * (3.0 - 2.0 * t)
-    };
-    smooth(since / CLOSE_S).min(1.0 - smooth((since - CLOSE_S - HOLD_S) / OPEN_S))
+    let open = smoothstep(0.0, OPEN_S, since - CLOSE_S - HOLD_S);
+    smoothstep(0.0, CLOSE_S, since).min(1.0 - open)
 }
 
 /// Bits that a seed and a number decide (SplitMix64).

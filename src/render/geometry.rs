@@ -100,9 +100,9 @@ impl Geometry {
     pub fn gather(scene: &Scene, eyes: &Eyes) -> Self {
         let mut geometry = Self::default();
         let rest = scene.rest_world_from_nodes();
-        let bone = |bone| scene.bone_node(bone).and_then(|n| Some((n, rest.get(n)?.inverse())));
-        geometry.rig.head = bone(HumanBone::Head);
-        geometry.rig.hips = bone(HumanBone::Hips);
+        let joint = |node: usize| Some((node, rest.get(node)?.inverse()));
+        geometry.rig.head = scene.head_node().and_then(joint);
+        geometry.rig.hips = scene.bone_node(HumanBone::Hips).and_then(joint);
         // A little over the bone, at the base of the skull, where there is no face.
         let over_bone = || Some(geometry.rig.head?.1.inverse().w_axis.truncate() + Vec3::Y * 0.1);
         let middle = scene.face_box(None).map(|(low, high)| (low + high) * 0.5).or_else(over_bone);

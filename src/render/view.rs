@@ -337,7 +337,7 @@ impl Framed {
     fn of(scene: &Scene, pose: &Pose, framing: Framing) -> Self {
         let world = scene.world_from_nodes(&pose.locals);
         let (low, high) = bounds(scene, &world);
-        let joint = |bone, name| Some(world.get(joint_node(scene, bone, name)?)?.w_axis.truncate());
+        let joint = |bone, name| Some(world.get(scene.joint_node(bone, name)?)?.w_axis.truncate());
         let head = joint(HumanBone::Head, "head");
         let hips = joint(HumanBone::Hips, "hips").or_else(|| joint(HumanBone::Hips, "pelvis"));
         let top = high.y;
@@ -373,12 +373,6 @@ impl Framed {
         };
         Self { target, height, width, before }
     }
-}
-
-/// Node of a humanoid bone, or the first node with its plain name (`Head`, `mixamorig:Head`).
-fn joint_node(scene: &Scene, bone: HumanBone, name: &str) -> Option<usize> {
-    let plain = |n: &str| n.rsplit([':', '_', '.']).next().is_some_and(|last| last.eq_ignore_ascii_case(name));
-    scene.bone_node(bone).or_else(|| scene.nodes.iter().position(|n| n.mesh.is_none() && plain(&n.name)))
 }
 
 /// Distance of the farthest side of a box from the vertical axis through `axis`.

@@ -7,6 +7,7 @@ use std::sync::{Arc, OnceLock};
 use glam::{Quat, Vec3};
 use rayon::prelude::*;
 
+use crate::smoothstep::smoothstep;
 use crate::{Error, Result};
 
 /// Light from all around, in place of [`Ambient`](super::Ambient). Surfaces of [`Standard`](crate::material::Standard) and lit
@@ -204,11 +205,6 @@ fn harmonics(d: Vec3) -> [f32; 9] {
 fn direction(width: u32, height: u32, x: u32, y: u32) -> Vec3 {
     let (phi, theta) = (((x as f32 + 0.5) / width as f32 - 0.5) * TAU, (y as f32 + 0.5) / height as f32 * PI);
     Vec3::new(theta.sin() * phi.sin(), theta.cos(), -theta.sin() * phi.cos())
-}
-
-fn smoothstep(low: f32, high: f32, x: f32) -> f32 {
-    let t = ((x - low) / (high - low)).clamp(0.0, 1.0);
-    t * t * (3.0 - 2.0 * t)
 }
 
 /// A soft rectangular light: 1 within, 0 beyond, in the plane that faces the middle. Half sizes are tangents.

@@ -10,6 +10,17 @@ use super::{HumanBone, Primitive, Role, Scene};
 const OF_HEAD: f32 = 0.9;
 
 impl Scene {
+    /// Node of a humanoid bone, or the first node with its plain name (`Head`, `mixamorig:Head`).
+    pub(crate) fn joint_node(&self, bone: HumanBone, name: &str) -> Option<usize> {
+        let plain = |n: &str| n.rsplit([':', '_', '.']).next().is_some_and(|last| last.eq_ignore_ascii_case(name));
+        self.bone_node(bone).or_else(|| self.nodes.iter().position(|n| n.mesh.is_none() && plain(&n.name)))
+    }
+
+    /// Node of the head; `None` where nothing is known for one.
+    pub(crate) fn head_node(&self) -> Option<usize> {
+        self.joint_node(HumanBone::Head, "head")
+    }
+
     /// A node and all below it.
     pub(crate) fn descendants(&self, root: usize) -> BTreeSet<usize> {
         let mut set = BTreeSet::from([root]);
@@ -65,7 +76,7 @@ impl Scene {
     /// Box at rest, world space, round the vertices of faces that follow the head: a body in one piece with its face counts
     /// with its head only. `material` keeps to one of them. `None` without such a face, or where it is flat.
     pub(crate) fn face_box(&self, material: Option<usize>) -> Option<(Vec3, Vec3)> {
-        let below = self.descendants(self.bone_node(HumanBone::Head)?);
+        let below = self.descendants(self.head_node()?);
         let world = self.rest_world_from_nodes();
         let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
         for (node, mesh) in self.mesh_nodes() {

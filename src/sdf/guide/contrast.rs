@@ -8,6 +8,7 @@ use super::Guide;
 use super::landmarks::{Landmarks, place};
 use super::relief::{Relief, SIDE};
 use crate::material::Toon;
+use crate::smoothstep::smoothstep;
 
 /// Least share of a feature's contrast that the map must keep.
 pub const KEPT: f32 = 0.8;
@@ -136,8 +137,7 @@ impl Guide {
 /// Share of light where the map has these thresholds.
 fn lit([right, left, normal]: [f32; 3], yaw: f32, own: f32) -> f32 {
     let tau = if yaw >= 0.0 { left } else { right };
-    let t = ((tau - yaw.abs() / std::f32::consts::PI) / (2.0 * SOFTNESS) + 0.5).clamp(0.0, 1.0);
-    let mapped = t * t * (3.0 - 2.0 * t);
+    let mapped = smoothstep(-SOFTNESS, SOFTNESS, tau - yaw.abs() / std::f32::consts::PI);
     mapped + (own - mapped) * normal
 }
 

@@ -1,10 +1,13 @@
 //! Where eyes, nose, mouth and chin are on a face: by roles, by what morphs move, by the relief, and by its paint.
 
+use std::collections::BTreeMap;
+
 use glam::{Vec2, Vec3};
 use serde::Serialize;
 
 use super::relief::{Relief, SIDE, sample};
 use crate::scene::{HumanBone, Mesh, Role, Scene};
+use crate::sets::Sets;
 
 /// Contrast of luminance over its surroundings from which a file counts as painting a feature itself.
 const PAINTED: f32 = 0.03;
@@ -106,7 +109,8 @@ pub(super) fn place(relief: &Relief, across: f32, up: f32) -> Vec2 {
     Vec2::new(0.5 + 0.5 * angle / super::relief::REACH, 1.0 - up)
 }
 
-/// Middle and half size of the left eye: of the parts that are eyes, else of what blinking moves, else of the eye bone.
+/// Middle and half size of the left eye: of the parts that are eyes, else of what blinking moves, of lashes, of the eye bone,
+/// or of what is painted.
 fn eyes(scene: &Scene, relief: &Relief) -> Option<(Vec2, Vec2)> {
     let world = scene.rest_world_from_nodes();
     let parts_of = |roles: &[Role]| -> Vec<Vec3> {
@@ -143,8 +147,55 @@ fn eyes(scene: &Scene, relief: &Relief) -> Option<(Vec2, Vec2)> {
         (low, high) = (low.min(at), high.max(at));
     }
     let (middle, half) = ((low + high) * 0.5, (high - low) * 0.5);
-    let is_sound = middle.is_finite() && middle.x > 0.02 && (0.05..0.95).contains(&middle.y) && half.x < 0.4;
+    if !middle.is_finite() {
+        return painted_eyes(relief);
+    }
+    let is_sound = middle.x > 0.02 && (0.05..0.95).contains(&middle.y) && half.x < 0.4;
     is_sound.then_some((middle, half.min(Vec2::splat(0.2))))
+}
+
+/// How much darker than skin an eye is painted, share of the skin's luminance.
+const DARK: f32 = 0.4;
+/// Share of the largest dark spot from which another counts.
+const COUNTS: f32 = 0.35;
+
+/// Middle and half size of the left eye as it is painted: the lowest of the great dark spots beside the middle, over which
+/// brows lie.
+fn painted_eyes(relief: &Relief) -> Option<(Vec2, Vec2)> {
+    let column = |angle: f32| Relief::cell(Vec2::new(0.5 + 0.5 * angle / super::relief::REACH, 0.0))[0];
+    let (left, right) = (column(0.1), column(1.0));
+    let rows = SIDE / 4..SIDE * 4 / 5;
+    let mut luminances: Vec<f32> =
+        rows.clone().flat_map(|y| &relief.painted[y * SIDE + left..y * SIDE + right]).copied().collect();
+    luminances.sort_by(f32::total_cmp);
+    let skin = *luminances.get(luminances.len() / 2)?;
+    let is_dark = |x: usize, y: usize| relief.painted[y * SIDE + x] < (1.0 - DARK) * skin;
+    let mut spots = Sets::new(SIDE * SIDE);
+    for (x, y) in rows.clone().flat_map(|y| (left..right).map(move |x| (x, y))).filter(|(x, y)| is_dark(*x, *y)) {
+        let before = [(x.max(left + 1) - 1, y), (x, y.max(rows.start + 1) - 1)];
+        before.iter().filter(|(x, y)| is_dark(*x, *y)).for_each(|(i, j)| spots.join(j * SIDE + i, y * SIDE + x));
+    }
+    let mut cells: BTreeMap<usize, Vec<[usize; 2]>> = BTreeMap::new();
+    for (x, y) in rows.clone().flat_map(|y| (left..right).map(move |x| (x, y))).filter(|(x, y)| is_dark(*x, *y)) {
+        cells.entry(spots.root(y * SIDE + x)).or_default().push([x, y]);
+    }
+    // What goes on beyond these bounds is hair, or a mouth.
+    let is_inside =
+        |[x, y]: &[usize; 2]| (left + 1..right - 1).contains(x) && (rows.start + 1..rows.end - 1).contains(y);
+    cells.retain(|_, spot| spot.iter().all(is_inside));
+    let most = cells.values().map(Vec::len).max()?;
+    let great = cells.values().filter(|spot| spot.len() as f32 > COUNTS * most as f32);
+    let height = |spot: &&Vec<[usize; 2]>| spot.iter().map(|[_, y]| *y as f32).sum::<f32>() / spot.len() as f32;
+    let eye = great.max_by(|a, b| height(a).total_cmp(&height(b)))?;
+    let (mut low, mut high) = (Vec2::INFINITY, Vec2::NEG_INFINITY);
+    for [x, y] in eye {
+        let across = relief.distance[y * SIDE + x] * Relief::angle(*x as f32).sin() / relief.height;
+        let at = Vec2::new(across, 1.0 - (*y as f32 + 0.5) / SIDE as f32);
+        (low, high) = (low.min(at), high.max(at));
+    }
+    // Less would be a freckle.
+    let half = (high - low) * 0.5;
+    (half.min_element() > 0.01).then_some(((low + high) * 0.5, half.min(Vec2::splat(0.2))))
 }
 
 /// Height and half width of the mouth by what visemes move sideways, on which lips differ from a jaw.

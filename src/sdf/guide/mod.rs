@@ -22,6 +22,7 @@ pub use wireframe::wireframe;
 
 use super::{FaceMap, Texels};
 use crate::scene::{Role, Scene};
+use crate::smoothstep::smoothstep;
 use raster::{Corner, Raster};
 use relief::{REACH, Relief, faces};
 use thresholds::Thresholds;
@@ -116,8 +117,8 @@ impl Guide {
         let texel = |texel: &Option<[f32; 3]>| {
             let Some([x, y, share]) = texel else { return [0, 0, u16::MAX, u16::MAX] };
             let [right, left, normal] = self.thresholds.at(Vec2::new(*x, *y));
-            let below = ((0.98 - share) / 0.23).clamp(0.0, 1.0);
-            [code(right), code(left), code(normal.max(below * below * (3.0 - 2.0 * below))), u16::MAX]
+            let below = smoothstep(0.98, 0.75, *share);
+            [code(right), code(left), code(normal.max(below)), u16::MAX]
         };
         let rgba = raster.texels.par_iter().map(texel).collect();
         Some(FaceMap::single("from the mesh", texels(SIDE, rgba)))

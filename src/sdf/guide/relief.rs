@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use super::raster::{Corner, Raster};
 use crate::color::LinearRgb;
 use crate::scene::painted::Painted;
-use crate::scene::{HumanBone, Primitive, Role, Scene};
+use crate::scene::{Primitive, Role, Scene};
 
 /// Rows and columns.
 pub(super) const SIDE: usize = 384;
@@ -188,7 +188,7 @@ fn turned(field: &[f32]) -> Field {
 
 /// The parts of a material that are a face, what takes each to the world at rest, and how much of each vertex follows the head.
 pub(super) fn faces(scene: &Scene, material: usize) -> Option<Vec<(&Primitive, Mat4, Vec<f32>)>> {
-    let head = scene.bone_node(HumanBone::Head)?;
+    let head = scene.head_node()?;
     let world = scene.rest_world_from_nodes();
     let below: BTreeSet<usize> = scene.descendants(head);
     let parts = scene.mesh_nodes().flat_map(|(node, mesh)| mesh.primitives.iter().map(move |p| (node, p)));

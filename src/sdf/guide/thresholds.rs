@@ -9,6 +9,7 @@ use rayon::prelude::*;
 use super::FaceStyle;
 use super::landmarks::{Landmarks, at};
 use super::relief::{Field, MARGIN, REACH, Relief, SIDE, sample, smoothed};
+use crate::smoothstep::smoothstep;
 
 /// Thresholds over the relief.
 pub(super) struct Thresholds {
@@ -43,22 +44,22 @@ impl Thresholds {
                 let round = landmarks.map_or(0.0, |l| {
                     (raised * 1000.0).clamp(-12.0, 22.0)
                         * (1.0 - near_eye(l, place))
-                        * fade(40.0, 15.0, angle.to_degrees().abs())
+                        * smoothstep(40.0, 15.0, angle.to_degrees().abs())
                 });
                 let mut dark_at = 90.0 + turned.to_degrees() + round;
                 if let Some(landmarks) = landmarks {
                     dark_at = cheek_light(landmarks, place, dark_at);
                     dark_at = drawn(landmarks, style, place, dark_at);
                 }
-                let behind = fade(77.0 + farther_deg, 100.0 + farther_deg, turned.to_degrees().abs());
+                let behind = smoothstep(77.0 + farther_deg, 100.0 + farther_deg, turned.to_degrees().abs());
                 // Nothing follows the head there.
-                let under = fade(0.8, 0.6, place.y * (1.0 + MARGIN) / MARGIN);
+                let under = smoothstep(0.8, 0.6, place.y * (1.0 + MARGIN) / MARGIN);
                 // Hair that is one mesh with the face begins where a forehead ends.
                 let over = landmarks.map_or(0.0, |l| {
                     let forehead = (place.y - l.eye[1]) / (l.eye[1] - l.chin).max(1e-4);
-                    fade(1.1, 1.35, forehead)
+                    smoothstep(1.1, 1.35, forehead)
                 });
-                let below = fade(0.98, 0.75, share[i]).max(under).max(over);
+                let below = smoothstep(0.98, 0.75, share[i]).max(under).max(over);
                 ((dark_at / 180.0).clamp(0.0, 1.0), behind.max(below))
             })
             .collect();
@@ -116,17 +117,11 @@ fn azimuth(distance: &[f32], x: usize, y: usize) -> f32 {
     Relief::angle(x as f32) - slope.atan2(distance[y * SIDE + x].max(1e-6))
 }
 
-/// 0 at `from`, 1 at `to`, smooth between; either may be the greater.
-fn fade(from: f32, to: f32, x: f32) -> f32 {
-    let t = ((x - from) / (to - from)).clamp(0.0, 1.0);
-    t * t * (3.0 - 2.0 * t)
-}
-
 /// 1 on the eyes and their lids, which stay clean.
 fn near_eye(l: &Landmarks, place: Vec2) -> f32 {
     let out = Vec2::new(place.x.abs() - l.eye[0], place.y - l.eye[1])
         / (Vec2::from(l.eye_half) * 1.35).max(Vec2::splat(1e-4));
-    fade(1.2, 0.8, out.length())
+    smoothstep(1.2, 0.8, out.length())
 }
 
 /// The light that stays under the far eye while the nose shades what lies between.
@@ -137,8 +132,8 @@ fn cheek_light(l: &Landmarks, place: Vec2, dark_at: f32) -> f32 {
     let bottom = l.mouth + 0.25 * (l.nose - l.mouth);
     let down = (top - place.y) / (top - bottom).max(1e-4);
     let half = l.eye_half[0] * (1.05 - 0.85 * down);
-    let inside = fade(1.0, 0.25, (side - l.eye[0] * (1.0 - 0.12 * down)).abs() / half.max(1e-4));
-    let within = fade(-0.25, 0.1, down) * fade(1.05, 0.6, down);
+    let inside = smoothstep(1.0, 0.25, (side - l.eye[0] * (1.0 - 0.12 * down)).abs() / half.max(1e-4));
+    let within = smoothstep(-0.25, 0.1, down) * smoothstep(1.05, 0.6, down);
     dark_at + (100.0 - dark_at).clamp(0.0, 26.0) * inside * within * f32::from(u8::from(side > 0.0))
 }
 

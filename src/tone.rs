@@ -7,15 +7,17 @@ use std::sync::LazyLock;
 
 use glam::{Mat3, Vec2, Vec3};
 
+use crate::smoothstep::smoothstep;
+
 /// A colour in Oklch.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Tone {
+pub(crate) struct Tone {
     /// Lightness as it is perceived: 0 black, 1 white.
-    pub(super) lightness: f32,
+    pub(crate) lightness: f32,
     /// Distance from grey: pure red has 0.26.
-    pub(super) chroma: f32,
+    pub(crate) chroma: f32,
     /// Hue, radians: pink 0, yellow a third of a turn, blue three quarters.
-    pub(super) hue_rad: f32,
+    pub(crate) hue_rad: f32,
 }
 
 const LMS_FROM_LINEAR: Mat3 = Mat3::from_cols_array(&[
@@ -46,14 +48,14 @@ static INVERSES: LazyLock<[Mat3; 2]> = LazyLock::new(|| [LAB_FROM_ROOTS.inverse(
 
 impl Tone {
     /// Of a linear colour.
-    pub(super) fn of(linear: [f32; 3]) -> Self {
+    pub(crate) fn of(linear: [f32; 3]) -> Self {
         let lms = LMS_FROM_LINEAR * Vec3::from(linear).max(Vec3::ZERO);
         let [lightness, a, b] = (LAB_FROM_ROOTS * Vec3::new(lms.x.cbrt(), lms.y.cbrt(), lms.z.cbrt())).to_array();
         Self { lightness, chroma: a.hypot(b), hue_rad: b.atan2(a) }
     }
 
     /// The linear colour, nearer to grey where it would leave 0..=1.
-    pub(super) fn to_linear(self) -> [f32; 3] {
+    pub(crate) fn to_linear(self) -> [f32; 3] {
         let fits = |chroma: f32| {
             let linear = self.with_chroma(chroma).unbound();
             linear.min_element() >= -1e-4 && linear.max_element() <= 1.0001
@@ -78,12 +80,27 @@ impl Tone {
         linear_from_lms * (roots * roots * roots)
     }
 
-    pub(super) fn with_chroma(self, chroma: f32) -> Self {
+    pub(crate) fn with_chroma(self, chroma: f32) -> Self {
         Self { chroma, ..self }
     }
 
+    /// How much it is like the skin of people, fair to dark: 0..1.
+    pub(crate) fn like_skin(self) -> f32 {
+        smoothstep(0.45, 0.6, self.hue_rad)
+            * smoothstep(1.5, 1.25, self.hue_rad)
+            * smoothstep(0.015, 0.035, self.chroma)
+            * smoothstep(0.2, 0.15, self.chroma)
+            * smoothstep(0.35, 0.5, self.lightness)
+    }
+
+    /// How far another is: 0.02 is seen side by side, white and black are 1 apart.
+    pub(crate) fn distance(self, other: Self) -> f32 {
+        let ab = |t: Self| Vec2::from_angle(t.hue_rad) * t.chroma;
+        (ab(self) - ab(other)).length().hypot(self.lightness - other.lightness)
+    }
+
     /// Between this and another, by a share of that.
-    pub(super) fn mixed(self, other: Self, share: f32) -> Self {
+    pub(crate) fn mixed(self, other: Self, share: f32) -> Self {
         let ab = |t: Self| Vec2::from_angle(t.hue_rad) * t.chroma;
         let ab = ab(self).lerp(ab(other), share);
         let lightness = self.lightness + (other.lightness - self.lightness) * share;
@@ -91,7 +108,7 @@ impl Tone {
     }
 
     /// Its hue turned towards another one by at most an angle.
-    pub(super) fn towards(self, hue_rad: f32, most_rad: f32) -> Self {
+    pub(crate) fn towards(self, hue_rad: f32, most_rad: f32) -> Self {
         let way = (hue_rad - self.hue_rad + PI).rem_euclid(2.0 * PI) - PI;
         Self { hue_rad: self.hue_rad + way.clamp(-most_rad, most_rad), ..self }
     }
