@@ -76,8 +76,13 @@ impl Column {
             3 + variant % 2
         };
         // A tenth of the cell on both sides stays empty: the lock's border.
-        let edges = edges(style, variant, points, (t - 0.13) / 0.74);
-        Self { edges, strength: level as f32 / LEVELS as f32 }
+        Self::faded(style, variant, points, (t - 0.13) / 0.74, level as f32 / LEVELS as f32)
+    }
+
+    /// A mark of which this share is left: it gets smaller and not only fainter, as a painter lets a row of them end.
+    fn faded(style: BandStyle, seed: usize, points: usize, t: f32, share: f32) -> Self {
+        let edges = edges(style, seed, points, 0.5 + (t - 0.5) / (0.35 + 0.65 * share).max(0.35));
+        Self { edges: edges.map(|edge| edge * (0.25 + 0.75 * share)), strength: (2.0 * share).min(1.0) }
     }
 
     /// Coverage of one texel.
@@ -104,7 +109,7 @@ fn ring(style: BandStyle, around: f32) -> Column {
     let border = |i: usize| i as f32 + if i == 0 { 0.0 } else { 0.5 * (hash(i, 11) - 0.5) };
     let i = (0..RING_CELLS).rev().find(|i| border(*i) <= place).unwrap_or(0);
     let t = (place - border(i)) / (border(i + 1) - border(i));
-    Column { edges: edges(style, 40 + i, 3, (t - 0.04) / 0.92), strength }
+    Column::faded(style, 40 + i, 3, (t - 0.04) / 0.92, strength)
 }
 
 /// Red: the marks, 0 where there is none.

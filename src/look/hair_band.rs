@@ -25,7 +25,7 @@ const VIEW_V: f32 = 0.18;
 /// Widest lock that has one mark, radians round the head; what is wider is a cap of many.
 const WIDEST: f32 = 0.9;
 /// Angle from the front from which marks fade, and at which they have gone, radians: over the temples.
-const FADES: [f32; 2] = [0.85, 1.75];
+const FADES: [f32; 2] = [0.8, 2.05];
 /// Share of the head's height that a piece of hair must be long: what is smaller ties it.
 const LEAST_LOCK: f32 = 0.12;
 /// Fewest triangles of hair that is smooth enough for a mark.
