@@ -28,6 +28,8 @@ impl Thresholds {
         let head = smoothed(&relief.distance, 13.0 * degree, 0.07 * row);
         let fine = (0.5 * relief.facet).clamp(0.011, 0.07);
         let features = smoothed(&relief.distance, (fine / 0.011 * 2.5).min(13.0) * degree, fine * row);
+        // A mesh of few triangles models no cheek: light that stays there would be a blot.
+        let modelled = smoothstep(0.034, 0.02, fine);
         let share = smoothed(&relief.share, 2.0 * degree, 0.01 * row);
         // Normals of few triangles shade in patches: there the map reaches farther back.
         let farther_deg = ((fine - 0.011) / 0.03).clamp(0.0, 1.0) * 15.0;
@@ -48,7 +50,7 @@ impl Thresholds {
                 });
                 let mut dark_at = 90.0 + turned.to_degrees() + round;
                 if let Some(landmarks) = landmarks {
-                    dark_at = cheek_light(landmarks, place, dark_at);
+                    dark_at += modelled * cheek_light(landmarks, place, dark_at);
                     dark_at = drawn(landmarks, style, place, dark_at);
                 }
                 let behind = smoothstep(77.0 + farther_deg, 100.0 + farther_deg, turned.to_degrees().abs());
@@ -124,7 +126,7 @@ fn near_eye(l: &Landmarks, place: Vec2) -> f32 {
     smoothstep(1.2, 0.8, out.length())
 }
 
-/// The light that stays under the far eye while the nose shades what lies between.
+/// How much longer light stays under the far eye, degrees, while the nose shades what lies between.
 fn cheek_light(l: &Landmarks, place: Vec2, dark_at: f32) -> f32 {
     // The far side of light from the left.
     let side = -place.x;
@@ -134,7 +136,7 @@ fn cheek_light(l: &Landmarks, place: Vec2, dark_at: f32) -> f32 {
     let half = l.eye_half[0] * (1.05 - 0.85 * down);
     let inside = smoothstep(1.0, 0.25, (side - l.eye[0] * (1.0 - 0.12 * down)).abs() / half.max(1e-4));
     let within = smoothstep(-0.25, 0.1, down) * smoothstep(1.05, 0.6, down);
-    dark_at + (100.0 - dark_at).clamp(0.0, 26.0) * inside * within * f32::from(u8::from(side > 0.0))
+    (100.0 - dark_at).clamp(0.0, 26.0) * inside * within * f32::from(u8::from(side > 0.0))
 }
 
 /// The nose: its shade on the far side, and a mark under the tip where the file paints none.
