@@ -164,7 +164,7 @@ const COUNTS: f32 = 0.35;
 fn painted_eyes(relief: &Relief) -> Option<(Vec2, Vec2)> {
     let column = |angle: f32| Relief::cell(Vec2::new(0.5 + 0.5 * angle / super::relief::REACH, 0.0))[0];
     let (left, right) = (column(0.1), column(1.0));
-    let rows = SIDE / 4..SIDE * 4 / 5;
+    let rows = SIDE / 8..SIDE * 4 / 5;
     let mut luminances: Vec<f32> =
         rows.clone().flat_map(|y| &relief.painted[y * SIDE + left..y * SIDE + right]).copied().collect();
     luminances.sort_by(f32::total_cmp);
