@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use glam::Vec3;
+use glam::{Quat, Vec3};
 
 use super::{Anime, hair_band, shade};
 use crate::color::LinearRgb;
@@ -31,7 +31,7 @@ pub(super) fn apply(scene: &mut Scene, look: &Anime) {
     body_rims(scene);
     self_shadow(scene);
     eyes(scene);
-    for material in materials_of(scene, Role::Skin) {
+    for material in bare_skin(scene) {
         scene.materials[material].transition = Some(Transition::default());
     }
     painted_shade(scene);
@@ -54,13 +54,23 @@ pub(super) fn materials_of_any(scene: &Scene, roles: &[Role]) -> BTreeSet<usize>
     roles.iter().flat_map(|role| materials_of(scene, *role)).collect()
 }
 
+/// Materials of skin alone: a palette of a whole character may count a dressed body among it.
+fn bare_skin(scene: &Scene) -> BTreeSet<usize> {
+    let others = [Role::Hair, Role::HairFront, Role::Cloth, Role::Accessory, Role::Other];
+    let skin = materials_of_any(scene, &[Role::Face, Role::Skin, Role::Mouth]);
+    skin.difference(&materials_of_any(scene, &others)).copied().collect()
+}
+
 /// Luminance up to which a line counts as black.
 const BLACK: f32 = 0.02;
 
 /// Lines in a dark tone of what they surround: instead of black ones, and round a character whose file knows none.
 fn outlines(scene: &mut Scene) {
     if scene.materials.iter().any(|m| m.outline.is_some()) {
-        for outline in scene.materials.iter_mut().filter_map(|m| m.outline.as_mut()) {
+        let worn = [Role::Hair, Role::HairFront, Role::Cloth, Role::Accessory, Role::Other];
+        let worn = materials_of_any(scene, &worn);
+        for (index, material) in scene.materials.iter_mut().enumerate() {
+            let Some(outline) = &mut material.outline else { continue };
             if outline.color.iter().all(|c| *c < BLACK) {
                 outline.tint = Some(OutlineTint::default());
             } else if outline.lighting_mix == 1.0 {
@@ -75,8 +85,10 @@ fn outlines(scene: &mut Scene) {
                 };
                 outline.tint = Some(kept);
             }
-            // A pen has one width, however near the camera comes.
-            outline.clamp_px.get_or_insert([0.0, 4.0]);
+            // A pen has one width, however near the camera comes. From afar a line is a pixel wide, where it cannot cross a
+            // face.
+            let least = if worn.contains(&index) { 1.0 } else { 0.0 };
+            outline.clamp_px.get_or_insert([least, 4.0]);
         }
         return;
     }
@@ -90,16 +102,16 @@ fn outlines(scene: &mut Scene) {
     }
 }
 
-/// How crisp the border of shade is at least on clothes and on hair, as MToon measures it: one stroke of a brush. Round as a
-/// head is, hair spreads a border wider.
+/// How crisp the border of shade is at least on clothes, as MToon measures it: one stroke of a brush; and on what is round and
+/// spreads a border wider, as hair and helmets.
 const CRISP: f32 = 0.95;
-const CRISP_ON_HAIR: f32 = 0.985;
+const CRISP_ON_ROUND: f32 = 0.985;
 
 /// Crisp borders on all but skin, whose light turns warm before it turns to shade.
 fn borders(scene: &mut Scene) {
-    let skin = materials_of_any(scene, &[Role::Face, Role::Skin, Role::Mouth]);
-    let hair: &[Role] = &[Role::Hair, Role::HairFront];
-    for (roles, crisp) in [(hair, CRISP_ON_HAIR), (&[Role::Cloth, Role::Accessory, Role::Other], CRISP)] {
+    let skin = bare_skin(scene);
+    let round: &[Role] = &[Role::Hair, Role::HairFront, Role::Accessory, Role::Other];
+    for (roles, crisp) in [(round, CRISP_ON_ROUND), (&[Role::Cloth], CRISP)] {
         for index in materials_of_any(scene, roles).difference(&skin) {
             if let Shading::Toon(toon) = &mut scene.materials[*index].shading {
                 toon.toony = toon.toony.max(crisp);
@@ -133,6 +145,9 @@ fn self_shadow(scene: &mut Scene) {
 
 /// How far the normals of hair are turned to those of a round head.
 const ROUNDED: f32 = 0.6;
+/// How far those of a lock are turned about the head to either side at most, radians: the border of shade steps from lock to
+/// lock, and is no straight line across them.
+const STEP: f32 = 0.3;
 
 /// Lets light fall on hair as on one round shape, so that its shade lies in masses and not in a stripe for each lock: round
 /// the head above its middle, round its axis below.
@@ -144,9 +159,15 @@ fn round_hair(scene: &mut Scene) {
         if !back.is_finite() {
             return;
         }
-        for (normal, position) in part.normals.iter_mut().zip(&part.positions) {
+        let (locks, _) = part.pieces();
+        // Neighbours in the file differ most: shares of the golden ratio.
+        let steps: Vec<Quat> = locks
+            .iter()
+            .map(|lock| Quat::from_rotation_y(STEP * (2.0 * (*lock as f32 * 0.618_034).fract() - 1.0)))
+            .collect();
+        for ((normal, position), step) in part.normals.iter_mut().zip(&part.positions).zip(steps) {
             let out = matrix.transform_point3(Vec3::from(*position)) - middle;
-            let round = out.with_y(out.y.max(0.0)).normalize_or(Vec3::Y);
+            let round = step * out.with_y(out.y.max(0.0)).normalize_or(Vec3::Y);
             let own = Vec3::from(*normal);
             let round = back.transform_vector3(round).normalize_or(own);
             // The inner side of a lock keeps its own.
@@ -194,9 +215,10 @@ fn skin_rim() -> DepthRim {
 fn body_rims(scene: &mut Scene) {
     let cloth = DepthRim { tint: 0.85, strength: 0.8, ..rim() };
     let faces = materials_of(scene, Role::Face);
-    for (role, rim) in [(Role::Cloth, cloth), (Role::Skin, skin_rim())] {
-        for index in materials_of(scene, role).difference(&faces) {
-            let material = &mut scene.materials[*index];
+    let skin = bare_skin(scene).difference(&faces).copied().collect();
+    for (materials, rim) in [(materials_of(scene, Role::Cloth), cloth), (skin, skin_rim())] {
+        for index in materials {
+            let material = &mut scene.materials[index];
             material.depth_rim = (material.alpha.mode != AlphaMode::Blend).then_some(rim);
         }
     }
@@ -238,7 +260,7 @@ fn faces(scene: &mut Scene, look: &Anime, before: &[[f32; 3]]) {
 /// Ramps and strokes of fur, where the file carries them. Eyes stay as they are drawn.
 fn painted_shade(scene: &mut Scene) {
     let eyes = materials_of_any(scene, &[Role::EyeWhite, Role::Eye, Role::EyeHighlight, Role::Lash, Role::Brow]);
-    let skin = materials_of_any(scene, &[Role::Face, Role::Skin, Role::Mouth]);
+    let skin = bare_skin(scene);
     for (index, material) in scene.materials.iter_mut().enumerate().filter(|(i, _)| !eyes.contains(i)) {
         let Authored { ramps, ramp_rows: [rows, row], part_ids, part_rows, detail_normal, .. } = material.authored;
         let part_rows = part_rows.map(|r| u32::try_from(r).unwrap_or(row));

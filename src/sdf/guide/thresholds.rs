@@ -51,6 +51,7 @@ impl Thresholds {
                 let mut dark_at = 90.0 + turned.to_degrees() + round;
                 if let Some(landmarks) = landmarks {
                     dark_at += modelled * cheek_light(landmarks, place, dark_at);
+                    dark_at += (1.0 - modelled) * cheek(landmarks, place);
                     dark_at = drawn(landmarks, style, place, dark_at);
                 }
                 let behind = smoothstep(77.0 + farther_deg, 100.0 + farther_deg, turned.to_degrees().abs());
@@ -137,6 +138,14 @@ fn cheek_light(l: &Landmarks, place: Vec2, dark_at: f32) -> f32 {
     let inside = smoothstep(1.0, 0.25, (side - l.eye[0] * (1.0 - 0.12 * down)).abs() / half.max(1e-4));
     let within = smoothstep(-0.25, 0.1, down) * smoothstep(1.05, 0.6, down);
     (100.0 - dark_at).clamp(0.0, 26.0) * inside * within * f32::from(u8::from(side > 0.0))
+}
+
+/// How much longer light stays on the cheek, degrees, where a mesh models none: the border of light bends round it, and
+/// runs in towards temple and chin.
+fn cheek(l: &Landmarks, place: Vec2) -> f32 {
+    let middle = l.mouth + 0.4 * (l.eye[1] - l.mouth);
+    let off = (place.y - middle) / (l.eye[1] - l.chin).max(1e-4);
+    20.0 * (-(off / 0.42).powi(2)).exp() - 10.0
 }
 
 /// The nose: its shade on the far side, and a mark under the tip where the file paints none.
