@@ -30,6 +30,8 @@ impl Thresholds {
         let features = smoothed(&relief.distance, (fine / 0.011 * 2.5).min(13.0) * degree, fine * row);
         // A mesh of few triangles models no cheek: light that stays there would be a blot.
         let modelled = smoothstep(0.034, 0.02, fine);
+        let facing: Field = relief.normals.par_iter().map(|n| n.x.atan2(n.z)).collect();
+        let facing = smoothed(&facing, 1.5 * degree, 0.008 * row);
         let share = smoothed(&relief.share, 2.0 * degree, 0.01 * row);
         // Normals of few triangles shade in patches: there the map reaches farther back.
         let farther_deg = ((fine - 0.011) / 0.03).clamp(0.0, 1.0) * 15.0;
@@ -44,7 +46,10 @@ impl Thresholds {
                 let place = Vec2::new(across, 1.0 - (y as f32 + 0.5) / SIDE as f32);
                 // The line between light and shade runs round what stands out.
                 let round = landmarks.map_or(0.0, |l| {
-                    (raised * 1000.0).clamp(-12.0, 22.0)
+                    // Few triangles say more by their normals than by where they lie.
+                    let slope = (facing[i] - turned).to_degrees().clamp(-60.0, 60.0);
+                    let by_height = (raised * 1000.0).clamp(-12.0, 22.0);
+                    (by_height * modelled + slope * (1.0 - modelled))
                         * (1.0 - near_eye(l, place))
                         * smoothstep(40.0, 15.0, angle.to_degrees().abs())
                 });
