@@ -46,7 +46,8 @@ fn check_face_uvs(scene: &Scene, warnings: &mut Warnings) {
             if positive.min(negative) > 0.2 * (positive + negative) {
                 warnings.add(
                     format!("/meshes/{index}/primitives/{part}"),
-                    "face UVs are mirrored: left and right share texels, so a face-shadow map cannot tell them apart",
+                    "face UVs are mirrored: left and right share texels, so a face-shadow map that is drawn over them cannot \
+                     tell them apart; one that a look makes from the mesh can",
                 );
             }
         }
@@ -84,6 +85,30 @@ fn check_texture_uses(scene: &Scene, warnings: &mut Warnings) {
                 &pointer,
                 format!("mask or normal map {} is a JPEG: expect blocks in the shading", quoted(&picture.name)),
             );
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Mesh, Primitive};
+
+    #[test]
+    fn half_a_face_turned_over_is_mirrored() {
+        let right = vec![[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
+        let both = [right.clone(), right.iter().map(|uv: &[f32; 2]| [-uv[0], uv[1]]).collect()].concat();
+        for (uvs, count) in [(right, 0), (both, 1)] {
+            let face = Primitive {
+                role: Role::Face,
+                indices: (0..).take(uvs.len()).collect(),
+                uvs: vec![uvs],
+                ..Primitive::default()
+            };
+            let meshes = vec![Mesh { primitives: vec![face], ..Mesh::default() }];
+            let mut warnings = Warnings::default();
+            check_face_uvs(&Scene { meshes, ..Scene::default() }, &mut warnings);
+            assert_eq!(warnings.finish().len(), count);
         }
     }
 }

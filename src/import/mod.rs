@@ -79,6 +79,9 @@ const SUPPORTED: [&str; 15] = [
 
 /// Loads a model with the default [`Limits`].
 ///
+/// Where nothing is known for a face, face and hair of the head are told apart by pieces and colours: they become parts of their
+/// own, with copies of their material.
+///
 /// # Errors
 /// The file cannot be read, is malformed, requires an unsupported extension, or is over a limit.
 pub fn load(path: impl AsRef<Path>) -> Result<Scene> {

@@ -147,7 +147,7 @@ fn self_shadow(scene: &mut Scene) {
 const ROUNDED: f32 = 0.6;
 /// How far those of a lock are turned about the head to either side at most, radians: the border of shade steps from lock to
 /// lock, and is no straight line across them.
-const STEP: f32 = 0.3;
+const STEP: f32 = 0.2;
 
 /// Lets light fall on hair as on one round shape, so that its shade lies in masses and not in a stripe for each lock: round
 /// the head above its middle, round its axis below.

@@ -2,12 +2,9 @@
 
 use hikage::material::Encoding;
 use hikage::material::{AlphaMode, Origin, Shading};
-use hikage::scene::{Primitive, Role, Scene, Warning};
+use hikage::scene::{Scene, Warning};
 
 use super::memory::image_uses;
-
-/// Share of the UV area that must be turned the other way before UVs count as mirrored.
-const MIRRORED_SHARE: f64 = 0.25;
 
 pub(super) fn advice(scene: &Scene) -> Vec<Warning> {
     let mut found = Vec::new();
@@ -37,50 +34,5 @@ pub(super) fn advice(scene: &Scene) -> Vec<Warning> {
             say(format!("/images/{index}"), "is used by no material");
         }
     }
-    for (mesh_index, mesh) in scene.meshes.iter().enumerate() {
-        for (index, primitive) in mesh.primitives.iter().enumerate() {
-            if primitive.role == Role::Face && mirrored_share(primitive) > MIRRORED_SHARE {
-                say(
-                    format!("/meshes/{mesh_index}/primitives/{index}"),
-                    "the UVs of the face are mirrored: a face-shadow map cannot tell left from right",
-                );
-            }
-        }
-    }
     found
-}
-
-/// Share of the UV area that is wound the other way than the rest. Range 0..0.5.
-fn mirrored_share(primitive: &Primitive) -> f64 {
-    let Some(uvs) = primitive.uvs.first() else { return 0.0 };
-    let (mut left, mut right) = (0f64, 0f64);
-    for triangle in primitive.indices.chunks_exact(3) {
-        let corner = |i: usize| uvs.get(triangle[i] as usize).map(|uv| uv.map(f64::from));
-        let (Some(a), Some(b), Some(c)) = (corner(0), corner(1), corner(2)) else { continue };
-        let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-        *(if area > 0.0 { &mut left } else { &mut right }) += area.abs();
-    }
-    if left + right > 0.0 {
-        left.min(right) / (left + right)
-    } else {
-        0.0
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn half_a_face_turned_over_is_mirrored() {
-        let right = vec![[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
-        let both = [right.clone(), right.iter().map(|uv: &[f32; 2]| [-uv[0], uv[1]]).collect()].concat();
-        let part = |uvs: Vec<[f32; 2]>| Primitive {
-            indices: (0..uvs.len() as u32).collect(),
-            uvs: vec![uvs],
-            ..Primitive::default()
-        };
-        assert_eq!(mirrored_share(&part(right)), 0.0);
-        assert_eq!(mirrored_share(&part(both)), 0.5);
-    }
 }
