@@ -409,11 +409,18 @@ fn safe_guide(scene: &mut Scene, index: usize, style: FaceStyle, before: &[[f32;
             Feature::Nose => "nose",
             Feature::Mouth => "mouth",
         };
+        // It lives from the shade round it, too.
+        let is_lost = contrast(&guide).is_some();
+        let what = if is_lost { "face shadow" } else { name };
         let message = format!(
-            "{name} left to the file's shading: its contrast fell from {:.3} to {:.3} under light from {:.0} degrees",
+            "{what} left to the file's shading: the contrast of the {name} fell from {:.3} to {:.3} under light from {:.0} \
+             degrees",
             found.before, found.after, found.yaw_deg
         );
         scene.warnings.push(Warning { pointer: pointer.clone(), message });
+        if is_lost {
+            return None;
+        }
     }
     Some(guide)
 }

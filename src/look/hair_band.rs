@@ -22,6 +22,8 @@ const REACH: f32 = 0.525;
 /// How far the marks move up their picture as light, and as the viewer, comes to the front.
 const LIGHT_V: f32 = 0.18;
 const VIEW_V: f32 = 0.18;
+/// How far the middle of a mark lies at least below where its lock looks up, radians; on a round head that is above the band.
+const BELOW_BEND: f32 = 0.06;
 /// Widest lock that has one mark, radians round the head; what is wider is a cap of many.
 const WIDEST: f32 = 0.9;
 /// Angle from the front from which marks fade, and at which they have gone, radians: over the temples.
@@ -39,6 +41,8 @@ struct Place {
     from_above: f32,
     /// Distance from the middle of the skull, metres.
     distance: f32,
+    /// Whether the surface looks up rather than to the side.
+    is_top: bool,
 }
 
 /// Share of the hair before and above the ears that a band may cover: more is no highlight.
@@ -188,7 +192,7 @@ fn wrap(
         if !materials.contains(&part.material) {
             return;
         }
-        let places: Vec<Place> = part.positions.iter().map(|p| place(*p, matrix, middle)).collect();
+        let places: Vec<Place> = (0..part.positions.len()).map(|v| place(part, v, matrix, middle)).collect();
         let (locks, count) = part.pieces();
         let mut members = vec![Vec::new(); count];
         for (vertex, lock) in locks.iter().enumerate() {
@@ -206,13 +210,15 @@ fn wrap(
     done
 }
 
-fn place(position: [f32; 3], matrix: Mat4, middle: Vec3) -> Place {
-    let out = matrix.transform_point3(Vec3::from(position)) - middle;
+fn place(part: &Primitive, vertex: usize, matrix: Mat4, middle: Vec3) -> Place {
+    let out = matrix.transform_point3(Vec3::from(part.positions[vertex])) - middle;
+    let normal = part.normals.get(vertex).map_or(Vec3::Z, |n| matrix.transform_vector3(Vec3::from(*n)));
     let direction = out.normalize_or(Vec3::Y);
     Place {
         around: direction.x.atan2(direction.z),
         from_above: direction.y.clamp(-1.0, 1.0).acos(),
         distance: out.length(),
+        is_top: normal.normalize_or(Vec3::Z).y > 0.72,
     }
 }
 
@@ -221,22 +227,22 @@ fn place(position: [f32; 3], matrix: Mat4, middle: Vec3) -> Place {
 enum Cell {
     /// Nowhere.
     Blank,
-    /// On a mark of its own, across it from one angle round the head to another.
-    Mark { first: f32, middle: f32, low: f32, high: f32 },
-    /// On the ring, for what covers more of the head than a lock.
-    Ring,
+    /// On a mark of its own, across it from one angle round the head to another, lower than others by an angle.
+    Mark { first: f32, middle: f32, low: f32, high: f32, lower: f32 },
+    /// On the ring, for what covers more of the head than a lock, lower by an angle.
+    Ring { lower: f32 },
 }
 
 impl Cell {
     fn uv(self, at: Place) -> [f32; 2] {
-        let v = 0.5 + (at.from_above - MIDDLE) / REACH;
+        let v = |lower: f32| 0.5 + (at.from_above - lower - MIDDLE) / REACH;
         match self {
             Self::Blank => [0.5, 1.0],
             // Alike on both sides, so that no seam runs down the back.
-            Self::Ring => [at.around.abs() / PI * RING_CELLS as f32 / CELLS as f32, v],
-            Self::Mark { first, middle, low, high } => {
+            Self::Ring { lower } => [at.around.abs() / PI * RING_CELLS as f32 / CELLS as f32, v(lower)],
+            Self::Mark { first, middle, low, high, lower } => {
                 let across = (turn(at.around - middle) - low) / (high - low);
-                [(first + across.clamp(-0.1, 1.1) * 0.8 + 0.1) / CELLS as f32, v]
+                [(first + across.clamp(-0.1, 1.1) * 0.8 + 0.1) / CELLS as f32, v(lower)]
             }
         }
     }
@@ -273,8 +279,11 @@ fn cell(part: &Primitive, places: &[Place], lock: &[usize], number: usize, heigh
     across.sort_by(f32::total_cmp);
     let at = |share: f32| across[((across.len() - 1) as f32 * share) as usize];
     let (low, high) = (at(0.04), at(0.96));
+    // Where a lock bends over the forehead, the band lies below the bend: on its top nobody would see it.
+    let bend = near.iter().filter(|v| places[**v].is_top).map(|v| places[*v].from_above).fold(0.0, f32::max);
+    let lower = (bend + BELOW_BEND - (MIDDLE - (LIGHT_V + VIEW_V) * REACH)).clamp(0.0, REACH);
     if high - low > WIDEST || style == BandStyle::Ring {
-        return Cell::Ring;
+        return Cell::Ring { lower };
     }
     let left = smoothstep(FADES[1], FADES[0], middle.abs());
     let level = (left * LEVELS as f32).round() as usize;
@@ -285,5 +294,5 @@ fn cell(part: &Primitive, places: &[Place], lock: &[usize], number: usize, heigh
     }
     let variant = wide * VARIANTS / 2 + number % (VARIANTS / 2);
     let first = (RING_CELLS + (level - 1) * VARIANTS + variant) as f32;
-    Cell::Mark { first, middle, low, high }
+    Cell::Mark { first, middle, low, high, lower }
 }

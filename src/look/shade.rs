@@ -60,7 +60,7 @@ pub(super) fn apply(scene: &mut Scene) {
             (true, _) if of_file.is_some() => of_file.unwrap_or_default(),
             // Hands are painted by what the palette's picture says.
             (true, Some(Mean { tone, .. })) if picture(&index).is_some_and(|p| of_others.contains(&p)) => {
-                palette_shade(tone)
+                as_dark_as(palette_shade(tone), own)
             }
             (true, Some(Mean { tone, .. })) => over(tone, skin_shade(tone)),
             _ if mixed.contains(&index) => {
@@ -132,6 +132,15 @@ fn palette_shade(lit: Tone) -> [f32; 3] {
     let cloth = between(cloth, [luminance(cloth); 3], 0.5 * grey);
     let skin: [f32; 3] = between(over(lit, skin_shade(lit)), ROSY_LAVENDER, 0.75);
     between(cloth, skin, lit.like_skin())
+}
+
+/// Share of the step from light to shade that a face keeps: nose and mouth live from it.
+const STEP_KEPT: f32 = 0.93;
+
+/// A factor of shade, darker where another has much more of a step from light.
+fn as_dark_as(factor: [f32; 3], other: [f32; 3]) -> [f32; 3] {
+    let most = 1.0 - STEP_KEPT * (1.0 - luminance(other));
+    factor.map(|c| c * (most / luminance(factor)).min(1.0))
 }
 
 /// Oklab lightness below which hair is black: its shade would not be told from its light.

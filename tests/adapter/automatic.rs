@@ -98,9 +98,9 @@ fn a_face_stays_readable_under_every_light() {
         let found = face(&scene).expect("a face");
         let mut automatic = scene.clone();
         Look::Anime(Anime::default()).apply(&mut automatic);
-        // Hair before them is no matter of eyes and brows.
+        // Hair and hats before them, and what these cast, are no matter of eyes and brows.
         for part in [&mut scene, &mut automatic].into_iter().flat_map(|s| &mut s.meshes) {
-            part.primitives.retain(|p| !matches!(p.role, Role::Hair | Role::HairFront));
+            part.primitives.retain(|p| !matches!(p.role, Role::Hair | Role::HairFront | Role::Accessory));
         }
         let renderer = Renderer::new(&gpu).expect("a renderer");
         let mut uploaded = [&scene, &automatic].map(|scene| {

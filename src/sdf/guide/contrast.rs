@@ -15,7 +15,7 @@ pub const KEPT: f32 = 0.8;
 /// Contrast below which nobody sees a feature.
 const SEEN: f32 = 0.012;
 /// Contrast of the paint alone from which eyes and brows count as painted.
-const PAINTED: f32 = 0.1;
+const PAINTED: f32 = 0.05;
 /// Lights: as many, over this angle on both sides of the front, at this height, radians. Further back a face lies in shade as a
 /// whole, by the file and by the map.
 const LIGHTS: usize = 12;
