@@ -4,6 +4,7 @@ use std::{
     fs,
     path::{Path, PathBuf},
     process::{Child, Command, Stdio},
+    sync::Mutex,
     time::{Duration, Instant},
 };
 
@@ -38,6 +39,9 @@ impl Drop for Killed {
     }
 }
 
+/// Servers start one after another: the first makes the folder of all sockets.
+static STARTING: Mutex<()> = Mutex::new(());
+
 /// A virtual screen with an example on it.
 struct Screen {
     app: Killed,
@@ -58,6 +62,7 @@ impl Screen {
         let _ = fs::remove_file(&file);
         let number = 90 + (std::process::id() * 2 + u32::from(name == "game")) % 200;
         let display = format!(":{number}");
+        let starting = STARTING.lock();
         let server = Killed(
             Command::new("Xvfb")
                 .args([&display, "-screen", "0", "800x800x24", "-nolisten", "tcp", "-fbdir"])
@@ -68,6 +73,7 @@ impl Screen {
                 .expect("Xvfb starts"),
         );
         wait_for("the X server", || fs::exists(format!("/tmp/.X11-unix/X{number}")).unwrap_or(false));
+        drop(starting);
         let app = Killed(
             Command::new(example(name))
                 .args(arguments)
