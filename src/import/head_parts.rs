@@ -308,6 +308,14 @@ mod tests {
     }
 
     #[test]
+    fn the_head_of_a_quadruped_stays_whole() {
+        let mut scene = scene("head", SKIN);
+        scene.nodes[1].transform.translation.z = 1.5;
+        divide(&mut scene);
+        assert_eq!((scene.meshes[0].primitives.len(), scene.materials.len()), (1, 1));
+    }
+
+    #[test]
     fn without_a_head_or_skin_nothing_changes() {
         for (head, skin) in [("pelvis", SKIN), ("head", "#60c060")] {
             let mut scene = scene(head, skin);

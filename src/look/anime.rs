@@ -54,11 +54,13 @@ pub(super) fn materials_of_any(scene: &Scene, roles: &[Role]) -> BTreeSet<usize>
     roles.iter().flat_map(|role| materials_of(scene, *role)).collect()
 }
 
+/// What lies over skin.
+const WORN: [Role; 5] = [Role::Hair, Role::HairFront, Role::Cloth, Role::Accessory, Role::Other];
+
 /// Materials of skin alone: a palette of a whole character may count a dressed body among it.
 fn bare_skin(scene: &Scene) -> BTreeSet<usize> {
-    let others = [Role::Hair, Role::HairFront, Role::Cloth, Role::Accessory, Role::Other];
     let skin = materials_of_any(scene, &[Role::Face, Role::Skin, Role::Mouth]);
-    skin.difference(&materials_of_any(scene, &others)).copied().collect()
+    skin.difference(&materials_of_any(scene, &WORN)).copied().collect()
 }
 
 /// Luminance up to which a line counts as black.
@@ -67,8 +69,7 @@ const BLACK: f32 = 0.02;
 /// Lines in a dark tone of what they surround: instead of black ones, and round a character whose file knows none.
 fn outlines(scene: &mut Scene) {
     if scene.materials.iter().any(|m| m.outline.is_some()) {
-        let worn = [Role::Hair, Role::HairFront, Role::Cloth, Role::Accessory, Role::Other];
-        let worn = materials_of_any(scene, &worn);
+        let worn = materials_of_any(scene, &WORN);
         for (index, material) in scene.materials.iter_mut().enumerate() {
             let Some(outline) = &mut material.outline else { continue };
             if outline.color.iter().all(|c| *c < BLACK) {
@@ -393,6 +394,7 @@ fn safe_guide(scene: &mut Scene, index: usize, style: FaceStyle, before: &[[f32;
         scene.warnings.push(Warning { pointer, message });
         return None;
     }
+    let mut left = Vec::new();
     for feature in Feature::ALL {
         let contrast = |guide: &Guide| guide.contrast(feature, &toon, shades).filter(|c| !c.is_kept());
         let Some(found) = contrast(&guide) else { continue };
@@ -417,11 +419,14 @@ fn safe_guide(scene: &mut Scene, index: usize, style: FaceStyle, before: &[[f32;
              degrees",
             found.before, found.after, found.yaw_deg
         );
-        scene.warnings.push(Warning { pointer: pointer.clone(), message });
+        let warning = Warning { pointer: pointer.clone(), message };
         if is_lost {
+            scene.warnings.push(warning);
             return None;
         }
+        left.push(warning);
     }
+    scene.warnings.append(&mut left);
     Some(guide)
 }
 

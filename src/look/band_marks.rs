@@ -81,7 +81,7 @@ impl Column {
 
     /// A mark of which this share is left: it gets smaller and not only fainter, as a painter lets a row of them end.
     fn faded(style: BandStyle, seed: usize, points: usize, t: f32, share: f32) -> Self {
-        let edges = edges(style, seed, points, 0.5 + (t - 0.5) / (0.35 + 0.65 * share).max(0.35));
+        let edges = edges(style, seed, points, 0.5 + (t - 0.5) / (0.35 + 0.65 * share));
         Self { edges: edges.map(|edge| edge * (0.25 + 0.75 * share)), strength: (2.0 * share).min(1.0) }
     }
 
