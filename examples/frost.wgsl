@@ -12,8 +12,7 @@ struct Frost {
 }
 
 // Hooked in by its name: what lies over the light of a surface.
-fn frost_shine(s: Surface, shaded: Shaded) -> Shaded {
-    var l = shaded;
+fn frost_shine(s: ptr<function, Surface>, l: ptr<function, Shaded>) {
     let m = &material.frost;
     var reach = m.height_m;
     @if(frost_flakes) reach += (textureSample(
@@ -22,5 +21,4 @@ fn frost_shine(s: Surface, shaded: Shaded) -> Shaded {
     let ice = 1.0 - smoothstep(reach - m.softness_m, reach + m.softness_m, s.at.world_position.y);
     l.direct = mix(l.direct, m.color * l.light * mix(0.6, 1.0, l.shading), ice);
     @if(channel_frost) shown = vec3f(ice);
-    return l;
 }

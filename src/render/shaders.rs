@@ -55,17 +55,17 @@ pub(crate) const STAGES: &[Stage] = &[
     stage("gone", "at: Varying", "bool", Fold::Of("||", "false")),
     stage("left", "at: Varying", "f32", Fold::Of("*", "1.0")),
     stage("samples", "at: Varying", "u32", Fold::Of("&", "15u")),
-    stage("surface", "s: Surface", "Surface", Fold::Chain),
-    stage("bend", "s: Surface", "Surface", Fold::Chain),
-    stage("lamps", "s: Surface", "Surface", Fold::Chain),
-    stage("paint", "s: Surface", "Surface", Fold::Chain),
-    stage("shade", "s: Surface, b: Border", "Border", Fold::Chain),
-    stage("model", "s: Surface", "Shaded", Fold::Last("unlit_model(s)")),
-    stage("shine", "s: Surface, l: Shaded", "Shaded", Fold::Chain),
-    stage("contour", "s: Surface, l: Shaded, color: vec3f", "vec3f", Fold::Chain),
+    stage("surface", "s: ptr<function, Surface>", "", Fold::Each),
+    stage("bend", "s: ptr<function, Surface>", "", Fold::Each),
+    stage("lamps", "s: ptr<function, Surface>", "", Fold::Each),
+    stage("paint", "s: ptr<function, Surface>", "", Fold::Each),
+    stage("shade", "s: ptr<function, Surface>, b: ptr<function, Border>", "", Fold::Each),
+    stage("model", "s: ptr<function, Surface>", "Shaded", Fold::Last("unlit_model(s)")),
+    stage("shine", "s: ptr<function, Surface>, l: ptr<function, Shaded>", "", Fold::Each),
+    stage("contour", "s: ptr<function, Surface>, l: ptr<function, Shaded>, color: vec3f", "vec3f", Fold::Chain),
     // Light of its own that blooms, and that of highlights.
-    stage("emitted", "s: Surface", "vec3f", Fold::Last("s.emission")),
-    stage("glow", "s: Surface, b: Border", "vec3f", Fold::Of("+", "vec3f(0.0)")),
+    stage("emitted", "s: ptr<function, Surface>", "vec3f", Fold::Last("s.emission")),
+    stage("glow", "s: ptr<function, Surface>, b: ptr<function, Border>", "vec3f", Fold::Of("+", "vec3f(0.0)")),
 ];
 
 /// A texture that a section binds.
@@ -345,7 +345,9 @@ impl Stage {
     /// Its function, which calls those of the sections.
     fn write(&self, sections: &[&str], page: &mut String) {
         let Self { name, takes, gives, fold } = self;
-        let passed: Vec<&str> = takes.split(", ").filter_map(|t| t.split(':').next()).collect();
+        // A type may hold a comma, but no colon.
+        let passed: Vec<&str> = takes.split(": ").filter_map(|t| t.rsplit(", ").next()).collect();
+        let passed = &passed[..passed.len() - 1];
         let last = passed.last().copied().unwrap_or_default();
         let call = |section: &str, last: &str| {
             let before = passed[..passed.len() - 1].iter().map(|p| format!("{p}, ")).collect::<String>();
@@ -360,9 +362,8 @@ impl Stage {
         match fold {
             Fold::Each => sections.iter().for_each(|s| body.push_str(&format!("    {};\n", call(s, last)))),
             Fold::Chain => {
-                body.push_str(&format!("    var value = {last};\n"));
-                sections.iter().for_each(|s| body.push_str(&format!("    value = {};\n", call(s, "value"))));
-                body.push_str("    return value;\n");
+                let value = sections.iter().fold(last.to_owned(), |value, s| call(s, &value));
+                body.push_str(&format!("    return {value};\n"));
             }
             Fold::Of(operator, none) => {
                 body.push_str(&format!("    var value = {none};\n"));

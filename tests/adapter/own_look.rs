@@ -44,8 +44,7 @@ struct OwnTint {
     mask_uv: UvTransform,
 }
 
-fn own_tint_shine(s: Surface, shaded: Shaded) -> Shaded {
-    var l = shaded;
+fn own_tint_shine(s: ptr<function, Surface>, l: ptr<function, Shaded>) {
     var share = material.own_tint.share;
     @if(own_tint_mask) share *= textureSample(
         own_tint_mask, own_tint_mask_sampler, texture_uv(s.uv, material.own_tint.mask_uv)
@@ -53,7 +52,6 @@ fn own_tint_shine(s: Surface, shaded: Shaded) -> Shaded {
     l.direct = mix(l.direct, material.own_tint.color, share);
     l.ambient *= 1.0 - share;
     @if(channel_own_tint_share) shown = vec3f(share);
-    return l;
 }
 "
 );
@@ -63,8 +61,8 @@ tint!(
     "broken_syntax",
     "struct BrokenSyntax { color: vec3f, share: f32 }
 
-fn broken_syntax_shine(s: Surface, l: Shaded) -> Shaded {
-    return l +;
+fn broken_syntax_shine(s: ptr<function, Surface>, l: ptr<function, Shaded>) {
+    l.direct +;
 }
 "
 );
@@ -80,10 +78,8 @@ struct BrokenType {
     share: f32,
 }
 
-fn broken_type_shine(s: Surface, l: Shaded) -> Shaded {
-    var changed = l;
-    changed.direct = material.broken_type.share;
-    return changed;
+fn broken_type_shine(s: ptr<function, Surface>, l: ptr<function, Shaded>) {
+    l.direct = material.broken_type.share;
 }
 "
 );
@@ -98,8 +94,8 @@ struct BrokenHook {
     share: f32,
 }
 
-fn broken_hook_shine(l: Shaded, s: Surface) -> Shaded {
-    return l;
+fn broken_hook_shine(l: ptr<function, Shaded>, s: ptr<function, Surface>) {
+    l.direct = vec3f(0.0);
 }
 "
 );
@@ -114,8 +110,8 @@ struct BrokenNumbers {
     shares: f32,
 }
 
-fn broken_numbers_shine(s: Surface, l: Shaded) -> Shaded {
-    return l;
+fn broken_numbers_shine(s: ptr<function, Surface>, l: ptr<function, Shaded>) {
+    l.direct = vec3f(0.0);
 }
 "
 );

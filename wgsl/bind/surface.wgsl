@@ -1,5 +1,6 @@
 // A surface on its way through the stages of shading, and the stages in their order. Which looks take part is written in
-// the generated module `package::material`, stage by stage.
+// the generated module `package::material`, stage by stage. Stages pass it on by pointer: drivers spend most of a pipeline's
+// making on copies of structs.
 import package::bind::frame::frame;
 import package::bind::lights::punctual_light;
 import package::bind::shown::shown;
@@ -60,7 +61,7 @@ struct Border {
 }
 
 // What looks of the stage `shade` start from, where light falls on the whole of it.
-fn border_of(s: Surface) -> Border {
+fn border_of(s: ptr<function, Surface>) -> Border {
     var b: Border;
     b.lit = s.lit;
     b.shade = s.shade;
@@ -109,45 +110,45 @@ fn surface_of(in: Varying, front_facing: bool) -> Surface {
     s.lit = vec3f(1.0);
     s.alpha = 1.0;
     @if(lit) s.normal = select(-in.normal, in.normal, front_facing);
-    return stage_surface(s);
+    stage_surface(&s);
+    return s;
 }
 
 // With the frame in which it is shaded.
-fn framed(surface: Surface) -> Surface {
-    var s = surface;
+fn framed(s: ptr<function, Surface>) {
     s.normal = normalize(s.normal);
     @if(tangent) s.tangent = normalize_or(
         s.at.tangent.xyz - s.normal * dot(s.normal, s.at.tangent.xyz), vec3f(0.0)
     );
     @if(lit) s.view = normalize(frame.eye - s.at.world_position);
-    return stage_bend(s);
+    stage_bend(s);
 }
 
-fn bitangent(s: Surface) -> vec3f {
+fn bitangent(s: ptr<function, Surface>) -> vec3f {
     return cross(s.normal, s.tangent) * s.at.tangent.w;
 }
 
 // With the light that falls on it.
-fn lit_by_lamps(surface: Surface) -> Surface {
-    var s = surface;
+fn lit_by_lamps(s: ptr<function, Surface>) {
     s.light = frame.light_color;
     s.n_dot_l = dot(s.normal, frame.to_light);
     @if(punctual) for (var i = 0u; i < frame.punctual_count; i++) {
         let arriving = punctual_light(i, s.at.world_position);
         s.lamps += arriving.radiance * smoothstep(-0.2, 0.2, dot(s.normal, arriving.to_light));
     }
-    return stage_lamps(s);
+    stage_lamps(s);
 }
 
 // What lamps add to a surface that they light by so much, as it takes light.
-fn taken_from_lamps(surface: Surface, lamps: vec3f) -> vec3f {
-    var s = surface;
+fn taken_from_lamps(surface: ptr<function, Surface>, lamps: vec3f) -> vec3f {
+    var s = *surface;
     s.light = frame.light_color + lamps;
-    return max(stage_lamps(s).light - surface.light, vec3f(0.0));
+    stage_lamps(&s);
+    return max(s.light - surface.light, vec3f(0.0));
 }
 
 // What a model starts from.
-fn shaded_of(s: Surface) -> Shaded {
+fn shaded_of(s: ptr<function, Surface>) -> Shaded {
     var l: Shaded;
     l.emission = s.emission;
     l.cover = s.alpha;
@@ -163,10 +164,12 @@ fn shaded_of(s: Surface) -> Shaded {
 fn drawn(in: Varying, front_facing: bool) -> Drawn {
     stage_vanish(in);
     var s = surface_of(in, front_facing);
-    @if(lit) s = lit_by_lamps(framed(s));
-    s = stage_paint(s);
-    let l = stage_shine(s, stage_model(s));
-    var color = stage_contour(s, l, l.direct + l.ambient + l.emission);
+    @if(lit) framed(&s);
+    @if(lit) lit_by_lamps(&s);
+    stage_paint(&s);
+    var l = stage_model(&s);
+    stage_shine(&s, &l);
+    var color = stage_contour(&s, &l, l.direct + l.ambient + l.emission);
     @if(channel) color = shown;
     return Drawn(color, l.cover, l.adds);
 }

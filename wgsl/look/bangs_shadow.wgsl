@@ -23,8 +23,7 @@ fn bangs_shadow_vary(v: Vertex, given: Varying) -> Varying {
     return out;
 }
 
-fn bangs_shadow_shade(s: Surface, border: Border) -> Border {
-    var b = border;
+fn bangs_shadow_shade(s: ptr<function, Surface>, b: ptr<function, Border>) {
     let m = &material.bangs_shadow;
     // Whites of eyes that are part of the face: lit, or a lavender of no warmth, and not barred by shadows of hair.
     let white = bangs_white(s.lit) * b.of_face;
@@ -44,5 +43,4 @@ fn bangs_shadow_shade(s: Surface, border: Border) -> Border {
     b.bangs = mix(vec3f(1.0), m.color, received);
     @if(skin_edge) b.edge = min(b.edge, mix(1.0, bangs_depth(lit, m.edges), m.strength * b.of_face));
     @if(channel_bangs_shadow) shown = vec3f(lit);
-    return b;
 }

@@ -27,8 +27,7 @@ fn base_texel(in: Varying, uv: vec4f) -> vec4f {
     return texel;
 }
 
-fn base_surface(surface: Surface) -> Surface {
-    var s = surface;
+fn base_surface(s: ptr<function, Surface>) {
     s.texel = base_texel(s.at, s.uv);
     let base = material.base.color * s.texel;
     s.lit = base.rgb;
@@ -47,7 +46,6 @@ fn base_surface(surface: Surface) -> Surface {
     @if(alpha_mask && !alpha_coverage && !alpha_hashed) if s.alpha < material.base.alpha_cutoff {
         discard;
     }
-    return s;
 }
 
 // Threshold of the noise that cuts it.

@@ -33,8 +33,7 @@ const COAT_EDGE: f32 = 0.7;
 // How far the underside of the jaw shows in the number of the layer, which is rounded.
 const UNDERSIDE: f32 = 0.45;
 
-fn cast_shadow_shade(s: Surface, border: Border) -> Border {
-    var b = border;
+fn cast_shadow_shade(s: ptr<function, Surface>, b: ptr<function, Border>) {
     var wanted = b.shading;
     @if(shade_ramp) wanted = max(wanted, b.soft);
     @if(skin_edge) wanted = max(wanted, 1.0 + b.edge);
@@ -53,5 +52,4 @@ fn cast_shadow_shade(s: Surface, border: Border) -> Border {
     @if(shade_ramp) b.received = 1.0 - left;
     @if(!shade_ramp) b.soft *= left;
     @if(channel_self_shadow) shown = vec3f(b.own_lit);
-    return b;
 }

@@ -21,8 +21,7 @@ struct Decals {
     count: u32,
 }
 
-fn decals_paint(surface: Surface) -> Surface {
-    var s = surface;
+fn decals_paint(s: ptr<function, Surface>) {
     var over = Painted(s.lit, s.shade);
     let uv = select(s.at.uv.xy, s.at.uv.zw, material.decals.map_uv.row_u.w > 0.5);
     let across = vec2f(length(dpdx(uv)), length(dpdy(uv)));
@@ -42,5 +41,4 @@ fn decals_paint(surface: Surface) -> Surface {
     }
     s.lit = over.lit;
     s.shade = over.shade;
-    return s;
 }

@@ -24,7 +24,7 @@ struct DepthRim {
     width_mask_uv: UvTransform,
 }
 
-fn depth_rim_contour(s: Surface, l: Shaded, color: vec3f) -> vec3f {
+fn depth_rim_contour(s: ptr<function, Surface>, l: ptr<function, Shaded>, color: vec3f) -> vec3f {
     let m = &material.depth_rim;
     let pixel = s.at.clip_position;
     let seen = (frame.view_from_world * vec4f(s.normal, 0.0)).xy;

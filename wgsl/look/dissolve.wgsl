@@ -32,13 +32,11 @@ fn dissolve_gone(in: Varying) -> bool {
     return burning(in.burn) < 0.0;
 }
 
-fn dissolve_surface(surface: Surface) -> Surface {
-    var s = surface;
+fn dissolve_surface(s: ptr<function, Surface>) {
     let burn = burning(s.at.burn);
     s.emission += material.dissolve.color * (1.0 - saturate(burn));
     @if(channel_emission) shown = s.emission;
     @if(channel_dissolve) shown = vec3f(saturate(burn), 1.0, 0.0);
-    return s;
 }
 
 // Lines grow thin.

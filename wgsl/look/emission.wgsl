@@ -15,8 +15,7 @@ struct Emission {
     texture_uv: UvTransform,
 }
 
-fn emission_surface(surface: Surface) -> Surface {
-    var s = surface;
+fn emission_surface(s: ptr<function, Surface>) {
     s.emission = material.emission.color;
     @if(emission_texture) {
         var at = texture_uv(s.uv, material.emission.texture_uv);
@@ -27,5 +26,4 @@ fn emission_surface(surface: Surface) -> Surface {
         fract(frame.time_s / material.emission.blink_period_s), material.emission.blink_low, material.emission.blink_sharpness
     );
     @if(channel_emission) shown = s.emission;
-    return s;
 }

@@ -32,12 +32,12 @@ struct EyeDepth {
 }
 
 // Place in the unit disc of the painted iris.
-fn eye_depth_flat(s: Surface) -> vec2f {
+fn eye_depth_flat(s: ptr<function, Surface>) -> vec2f {
     return s.at.eye_place.xy / material.eye_depth.rim;
 }
 
 // The same of what is seen there, behind the cornea.
-fn eye_depth_seen(s: Surface) -> vec2f {
+fn eye_depth_seen(s: ptr<function, Surface>) -> vec2f {
     let m = &material.eye_depth;
     let flat = eye_depth_flat(s);
     let aspect = eye_depth_rows(s)[0].w;
@@ -54,7 +54,7 @@ fn eye_depth_vary(v: Vertex, given: Varying) -> Varying {
     return out;
 }
 
-fn eye_depth_rows(s: Surface) -> mat2x4f {
+fn eye_depth_rows(s: ptr<function, Surface>) -> mat2x4f {
     let m = &material.eye_depth;
     let number = s.at.eye_axes.x;
     return mat2x4f(
@@ -63,8 +63,7 @@ fn eye_depth_rows(s: Surface) -> mat2x4f {
     );
 }
 
-fn eye_depth_surface(surface: Surface) -> Surface {
-    var s = surface;
+fn eye_depth_surface(s: ptr<function, Surface>) {
     let m = &material.eye_depth;
     let seen = eye_depth_seen(s);
     let inside = seen * (min(length(seen), 1.0) / max(length(seen), 1e-6));
@@ -76,11 +75,9 @@ fn eye_depth_surface(surface: Surface) -> Surface {
     let step = vec3f((seen + scaled - eye_depth_flat(s)) * (*m).rim, 0.0);
     let rows = eye_depth_rows(s);
     s.uv += vec4f(dot(rows[0].xyz, step), dot(rows[1].xyz, step), 0.0, 0.0);
-    return s;
 }
 
-fn eye_depth_paint(surface: Surface) -> Surface {
-    var s = surface;
+fn eye_depth_paint(s: ptr<function, Surface>) {
     let m = &material.eye_depth;
     let seen = eye_depth_seen(s);
     @if(eye_depth_below) {
@@ -104,5 +101,4 @@ fn eye_depth_paint(surface: Surface) -> Surface {
     s.lit = mix(s.lit, (*m).pupil_color.rgb, cover);
     s.shade = mix(s.shade, (*m).pupil_color.rgb * 0.8, cover);
     @if(channel_eye_depth) shown = vec3f((seen - eye_depth_flat(s)) * 0.5 + 0.5, 0.5);
-    return s;
 }

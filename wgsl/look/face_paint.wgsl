@@ -29,8 +29,7 @@ fn face_paint_vary(v: Vertex, given: Varying) -> Varying {
     return out;
 }
 
-fn face_paint_shade(s: Surface, border: Border) -> Border {
-    var b = border;
+fn face_paint_shade(s: ptr<function, Surface>, b: ptr<function, Border>) {
     let m = &material.face_paint;
     let drawn = textureSample(face_paint_map, face_paint_map_sampler, texture_uv(s.uv, m.map_uv)).rgb;
     let paint = face_paint_factor(
@@ -40,5 +39,4 @@ fn face_paint_shade(s: Surface, border: Border) -> Border {
     b.lit *= paint;
     b.shade *= paint;
     @if(channel_face_paint) shown = paint;
-    return b;
 }

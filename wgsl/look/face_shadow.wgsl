@@ -32,8 +32,7 @@ fn face_shadow_vary(v: Vertex, given: Varying) -> Varying {
     return out;
 }
 
-fn face_shadow_shade(s: Surface, border: Border) -> Border {
-    var b = border;
+fn face_shadow_shade(s: ptr<function, Surface>, b: ptr<function, Border>) {
     let m = &material.face_shadow;
     @if(!face_relief) let uv = s.at.uv.xy;
     @if(face_relief) let uv = s.at.uv.zw;
@@ -72,7 +71,6 @@ fn face_shadow_shade(s: Surface, border: Border) -> Border {
     b.shading = face_shading(b.shading, lit, region, strength);
     @if(soft) b.soft = face_shading(b.soft, soft, region, strength);
     @if(skin_edge) b.edge = face_shading(b.edge, face_edge(uv, s.at.face_light, place), region, strength);
-    return b;
 }
 
 // How far the light would have to turn for the border of the maps to lie there, radians.

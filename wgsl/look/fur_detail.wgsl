@@ -20,16 +20,13 @@ struct FurDetail {
     detail_color_uv: UvTransform,
 }
 
-fn fur_detail_bend(surface: Surface) -> Surface {
-    var s = surface;
+fn fur_detail_bend(s: ptr<function, Surface>) {
     let at = texture_uv(s.uv, material.fur_detail.detail_normal_uv);
     let bent = textureSample(fur_detail_detail_normal, fur_detail_detail_normal_sampler, at).xyz;
     s.normal = normal_from_map(bent, material.fur_detail.normal_scale, s.normal, s.tangent, s.at.tangent.w);
-    return s;
 }
 
-fn fur_detail_paint(surface: Surface) -> Surface {
-    var s = surface;
+fn fur_detail_paint(s: ptr<function, Surface>) {
     let m = &material.fur_detail;
     let fur = fur_masks(s.n_dot_l, m.terminator, m.softness);
     var flat_color = s.texel.rgb;
@@ -49,5 +46,4 @@ fn fur_detail_paint(surface: Surface) -> Surface {
     s.lit = material.base.color.rgb * s.texel.rgb;
     @if(toon) s.shade = shade_color(s);
     @if(channel_fur) shown = fur;
-    return s;
 }

@@ -12,7 +12,7 @@ struct Glow {
 }
 
 // Border of light by the key light alone: highlights fade by it.
-fn glow_border(s: Surface) -> Border {
+fn glow_border(s: ptr<function, Surface>) -> Border {
     var b: Border;
     @if(toon) b.shading = mtoon_shading(dot(s.normal, frame.to_light), material.toon.shift, material.toon.toony);
     @if(!toon) b.shading = saturate(dot(s.normal, frame.to_light));

@@ -44,7 +44,7 @@ struct Hair {
 }
 
 // Direction of the strands, world, unit, from root to tip.
-fn strand_direction(s: Surface) -> vec3f {
+fn strand_direction(s: ptr<function, Surface>) -> vec3f {
     var t = s.tangent;
     @if(hair_flow_map) {
         let flow = textureSample(
@@ -58,7 +58,7 @@ fn strand_direction(s: Surface) -> vec3f {
 }
 
 // How far highlights are moved along the strands here.
-fn strand_shift(s: Surface) -> f32 {
+fn strand_shift(s: ptr<function, Surface>) -> f32 {
     var shift = 0.0;
     @if(hair_shift_map) {
         let found = textureSample(

@@ -37,7 +37,7 @@ fn highlight_vary(v: Vertex, given: Varying) -> Varying {
 }
 
 // Shares of both layers, moved.
-fn highlight_layers(s: Surface) -> vec2f {
+fn highlight_layers(s: ptr<function, Surface>) -> vec2f {
     let m = &material.highlight;
     let moved = s.at.moved.xy;
     // The map is clamped at its border by its sampler.
@@ -55,8 +55,7 @@ fn highlight_layers(s: Surface) -> vec2f {
     return layers;
 }
 
-fn highlight_shine(s: Surface, shaded: Shaded) -> Shaded {
-    var l = shaded;
+fn highlight_shine(s: ptr<function, Surface>, l: ptr<function, Shaded>) {
     let m = &material.highlight;
     let layers = highlight_layers(s);
     let left = s.at.moved.z * mix(m.in_shade, 1.0, l.shading);
@@ -68,10 +67,9 @@ fn highlight_shine(s: Surface, shaded: Shaded) -> Shaded {
     let first = layers.x * m.strength * left;
     l.direct = mix(l.direct, m.color * l.light, first);
     @if(channel_highlight) shown = max(shown, vec3f(first));
-    return l;
 }
 
-fn highlight_glow(s: Surface, b: Border) -> vec3f {
+fn highlight_glow(s: ptr<function, Surface>, b: ptr<function, Border>) -> vec3f {
     let m = &material.highlight;
     let layers = highlight_layers(s);
     let left = s.at.moved.z * mix(m.in_shade, 1.0, b.shading);

@@ -36,7 +36,7 @@ fn inner_line(pixel: vec4f) -> f32 {
     return saturate(different * 0.5) * saturate(m.width_px * height / 1024.0);
 }
 
-fn inner_lines_contour(s: Surface, l: Shaded, color: vec3f) -> vec3f {
+fn inner_lines_contour(s: ptr<function, Surface>, l: ptr<function, Shaded>, color: vec3f) -> vec3f {
     let line = inner_line(s.at.clip_position);
     @if(channel_inner_lines) shown = vec3f(line);
     // It darkens what is there: a line never glows.

@@ -17,8 +17,7 @@ fn layer_place(clip: vec4f) -> vec4f {
     return vec4f(clip.xy, pulled_depth(clip.z, clip.w, material.layer.pull), clip.w);
 }
 
-fn layer_shade(s: Surface, border: Border) -> Border {
-    var b = border;
+fn layer_shade(s: ptr<function, Surface>, b: ptr<function, Border>) {
     let m = &material.layer;
     // Shade is even and a grey of the card's own colour, not the skin's, and it has no edge.
     @if(lit) {
@@ -29,5 +28,4 @@ fn layer_shade(s: Surface, border: Border) -> Border {
     }
     // Grey by the index, lighter above.
     @if(channel_layer) shown = vec3f(0.5 + material.layer.pull * 600.0);
-    return b;
 }

@@ -10,9 +10,7 @@ struct LightResponse {
     monochrome: f32,
 }
 
-fn light_response_lamps(surface: Surface) -> Surface {
-    var s = surface;
+fn light_response_lamps(s: ptr<function, Surface>) {
     let m = &material.light_response;
     s.light = light_response(s.light, m.min, m.max, m.monochrome);
-    return s;
 }

@@ -7,10 +7,8 @@ struct Matcap {
     color: vec3f,
 }
 
-fn matcap_shine(s: Surface, shaded: Shaded) -> Shaded {
-    var l = shaded;
+fn matcap_shine(s: ptr<function, Surface>, l: ptr<function, Shaded>) {
     // Images begin at the top left; the lookup has v upwards.
     let uv = mtoon_matcap_uv(s.normal, s.view) * vec2f(1.0, -1.0) + vec2f(0.0, 1.0);
     l.matcap = textureSample(matcap_texture, matcap_texture_sampler, uv).rgb * material.matcap.color;
-    return l;
 }

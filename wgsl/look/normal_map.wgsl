@@ -26,7 +26,7 @@ fn texture_frame(n: vec3f, position: vec3f, uv: vec2f) -> vec4f {
 }
 
 // The normal without bumps of a mm and less, `bent` being by all of them; metres along u and v.
-fn normal_map_smooth(bent: Surface, metres_per_uv: vec2f) -> vec3f {
+fn normal_map_smooth(bent: ptr<function, Surface>, metres_per_uv: vec2f) -> vec3f {
     let texels = vec2f(textureDimensions(normal_map_texture));
     let texel_mm = 1000.0 * max(metres_per_uv.x / texels.x, metres_per_uv.y / texels.y);
     // A whole one: half as many texels are read.
@@ -38,8 +38,7 @@ fn normal_map_smooth(bent: Surface, metres_per_uv: vec2f) -> vec3f {
     return normal_from_map(found, material.normal_map.scale, geometric, bent.tangent, bent.at.tangent.w);
 }
 
-fn normal_map_bend(surface: Surface) -> Surface {
-    var s = surface;
+fn normal_map_bend(s: ptr<function, Surface>) {
     let bent = textureSample(
         normal_map_texture, normal_map_texture_sampler, texture_uv(s.uv, material.normal_map.texture_uv)
     ).xyz;
@@ -50,5 +49,4 @@ fn normal_map_bend(surface: Surface) -> Surface {
     }
     @if(!strands_by_vertex) s.normal =
         normal_from_map(bent, material.normal_map.scale, s.normal, s.tangent, s.at.tangent.w);
-    return s;
 }

@@ -12,7 +12,7 @@ struct Rim {
     mask_uv: UvTransform,
 }
 
-fn rim_contour(s: Surface, l: Shaded, color: vec3f) -> vec3f {
+fn rim_contour(s: ptr<function, Surface>, l: ptr<function, Shaded>, color: vec3f) -> vec3f {
     let m = &material.rim;
     var parametric = vec3f(0.0);
     @if(rim_color) parametric = m.color * mtoon_parametric_rim(dot(s.normal, s.view), m.lift, m.fresnel_power);

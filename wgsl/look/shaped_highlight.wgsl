@@ -27,7 +27,7 @@ struct ShapedHighlight {
 }
 
 // Share of the highlight.
-fn shaped_share(s: Surface) -> f32 {
+fn shaped_share(s: ptr<function, Surface>) -> f32 {
     let m = &material.shaped_highlight;
     let n = s.normal;
     var axis = vec3f(frame.view_from_world[0].x, frame.view_from_world[1].x, frame.view_from_world[2].x);
@@ -57,8 +57,7 @@ fn shaped_share(s: Surface) -> f32 {
     return select(0.0, share, dot(h, n) > 0.0);
 }
 
-fn shaped_highlight_shine(s: Surface, shaded: Shaded) -> Shaded {
-    var l = shaded;
+fn shaped_highlight_shine(s: ptr<function, Surface>, l: ptr<function, Shaded>) {
     let m = &material.shaped_highlight;
     @if(matcap) {
         // Metal tints what it mirrors.
@@ -69,10 +68,9 @@ fn shaped_highlight_shine(s: Surface, shaded: Shaded) -> Shaded {
     let share = shaped_share(s) * (mix(m.in_shade, 1.0, l.shading) * m.strength);
     l.direct = mix(l.direct, m.color * l.light, share);
     @if(channel_highlight) shown = max(shown, vec3f(share));
-    return l;
 }
 
-fn shaped_highlight_glow(s: Surface, b: Border) -> vec3f {
+fn shaped_highlight_glow(s: ptr<function, Surface>, b: ptr<function, Border>) -> vec3f {
     let m = &material.shaped_highlight;
     return m.color * (shaped_share(s) * (mix(m.in_shade, 1.0, b.shading) * m.strength));
 }

@@ -53,7 +53,7 @@ fn skin_edge_reach() -> f32 {
 }
 
 // Angle by which a surface bends over it.
-fn skin_edge_angle(s: Surface) -> f32 {
+fn skin_edge_angle(s: ptr<function, Surface>) -> f32 {
     var curvature = s.at.skin.x;
     @if(skin_curvature_map) curvature = 1000.0 * material.skin.profile_world_scale * textureSample(
         skin_curvature_map, skin_curvature_map_sampler, texture_uv(s.uv, material.skin.curvature_map_uv)
@@ -63,7 +63,7 @@ fn skin_edge_angle(s: Surface) -> f32 {
 
 // Warm light along the drawn border between light and shade, in place of what is drawn there.
 @if(skin_edge)
-fn skin_edge(s: Surface, b: Border, drawn: vec3f) -> vec3f {
+fn skin_edge(s: ptr<function, Surface>, b: ptr<function, Border>, drawn: vec3f) -> vec3f {
     let m = &material.skin;
     let side = select(-1.0, 1.0 / EDGE_IN_LIGHT, b.edge > 0.0);
     let near = saturate(1.0 - b.edge * side);

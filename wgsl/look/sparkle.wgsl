@@ -13,7 +13,7 @@ struct Sparkle {
     size_cos: f32,
 }
 
-fn sparks(s: Surface) -> f32 {
+fn sparks(s: ptr<function, Surface>) -> f32 {
     let m = &material.sparkle;
     let h = normalize(frame.to_light + s.view);
     let uv = s.at.uv.xy;
@@ -23,14 +23,12 @@ fn sparks(s: Surface) -> f32 {
     return shine * smoothstep(0.0, 0.2, dot(s.normal, frame.to_light));
 }
 
-fn sparkle_shine(s: Surface, shaded: Shaded) -> Shaded {
-    var l = shaded;
+fn sparkle_shine(s: ptr<function, Surface>, l: ptr<function, Shaded>) {
     let sparkling = sparks(s);
     l.direct += material.sparkle.color * l.light * sparkling * l.own_lit;
     @if(channel_sparkle) shown = vec3f(sparkling);
-    return l;
 }
 
-fn sparkle_glow(s: Surface, b: Border) -> vec3f {
+fn sparkle_glow(s: ptr<function, Surface>, b: ptr<function, Border>) -> vec3f {
     return material.sparkle.color * (sparks(s) * b.own_lit);
 }

@@ -10,12 +10,10 @@ struct Stocking {
     cover: f32,
 }
 
-fn stocking_paint(surface: Surface) -> Surface {
-    var s = surface;
+fn stocking_paint(s: ptr<function, Surface>) {
     let cover = stocking_cover(material.stocking.cover, abs(dot(s.normal, s.view)));
     let over = painted(Painted(s.lit, s.shade), material.stocking.color, cover, false);
     s.lit = over.lit;
     s.shade = over.shade;
     @if(channel_overlay) shown = max(shown, vec3f(cover));
-    return s;
 }

@@ -31,10 +31,9 @@ fn strips_vary(v: Vertex, given: Varying) -> Varying {
 }
 
 // After the model: what has no light shows its colour in every channel.
-fn strips_shine(s: Surface, l: Shaded) -> Shaded {
+fn strips_shine(s: ptr<function, Surface>, l: ptr<function, Shaded>) {
     @if(channel_strips) shown = strip_hue(s.at.part & 0xffu);
     @if(channel_strip_order) shown = vec3f(f32(s.at.part >> 8u) / 255.0);
     @if(channel_strip_occlusion) shown = occlusion_of_strips(s.at);
     @if(channel_strip_grayness) shown = vec3f(grayness_of_strips(s.at));
-    return l;
 }

@@ -14,7 +14,7 @@ struct Toon {
     shift_texture_uv: UvTransform,
 }
 
-fn shade_color(s: Surface) -> vec3f {
+fn shade_color(s: ptr<function, Surface>) -> vec3f {
     var shade = material.toon.shade_color;
     @if(shade_is_base) shade *= s.texel.rgb;
     @if(toon_shade_texture && !shade_is_base) shade *= surface_texel(
@@ -24,8 +24,6 @@ fn shade_color(s: Surface) -> vec3f {
     return shade;
 }
 
-fn toon_surface(surface: Surface) -> Surface {
-    var s = surface;
+fn toon_surface(s: ptr<function, Surface>) {
     s.shade = shade_color(s);
-    return s;
 }

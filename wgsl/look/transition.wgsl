@@ -10,9 +10,7 @@ struct Transition {
     width: f32,
 }
 
-fn transition_shade(s: Surface, border: Border) -> Border {
-    var b = border;
+fn transition_shade(s: ptr<function, Surface>, b: ptr<function, Border>) {
     b.tint = transition_tint(b.soft, material.transition.color, material.transition.strength);
     @if(channel_transition) shown = b.tint;
-    return b;
 }

@@ -55,7 +55,7 @@ fn iris_texture_place(q: vec2f, now: f32, number: u32) -> vec2f {
 }
 
 // Colour of the iris.
-fn iris_colour(s: Surface, q: vec2f) -> vec3f {
+fn iris_colour(s: ptr<function, Surface>, q: vec2f) -> vec3f {
     let m = &material.eye;
     let a = &actors[s.at.actor];
     let mm = mix((*m).pupil_mm, (*a).pupil_mm, (*a).pupil_reflex) * (*a).pupil_scale;
@@ -102,7 +102,7 @@ fn sclera_light(e: Seen, to_light: vec3f) -> vec3f {
 }
 
 // What is mirrored of one direction, over the light's strength.
-fn eye_lobe(s: Surface, e: Seen, to_light: vec3f) -> vec3f {
+fn eye_lobe(s: ptr<function, Surface>, e: Seen, to_light: vec3f) -> vec3f {
     let n_dot_l = saturate(dot(e.normal, to_light));
     let h = normalize(s.view + to_light);
     let d = ggx_distribution(saturate(dot(e.normal, h)), e.alpha) * PI;
@@ -120,7 +120,7 @@ fn eye_rows(number: u32) -> mat3x4f {
     );
 }
 
-fn eye_seen(s: Surface, place: vec3f) -> Seen {
+fn eye_seen(s: ptr<function, Surface>, place: vec3f) -> Seen {
     let m = &material.eye;
     var e: Seen;
     e.axes = eye_axes(s.at);
@@ -159,7 +159,7 @@ fn eye_seen(s: Surface, place: vec3f) -> Seen {
 
 // Painted lights, over the light's strength.
 @if(eye_catch)
-fn eye_catch_lights(s: Surface, e: Seen) -> f32 {
+fn eye_catch_lights(s: ptr<function, Surface>, e: Seen) -> f32 {
     let m = &material.eye;
     let up = vec3f(frame.view_from_world[0].y, frame.view_from_world[1].y, frame.view_from_world[2].y);
     let right = normalize(cross(up, s.view));
@@ -176,7 +176,7 @@ fn eye_catch_lights(s: Surface, e: Seen) -> f32 {
     return e.on_cornea * (key * (*m).key_catch_strength + fill * (*m).fill_catch_strength);
 }
 
-fn eye_model(s: Surface) -> Shaded {
+fn eye_model(s: ptr<function, Surface>) -> Shaded {
     let m = &material.eye;
     let place = s.at.eye_place * (*m).dimensions_eyeball_radius_mm;
     let e = eye_seen(s, place);
@@ -190,10 +190,10 @@ fn eye_model(s: Surface) -> Shaded {
     let iris = iris_colour(s, e.q) * iris_limbus;
     var sclera = s.lit * sclera_limbus;
     @if(eye_veins) sclera *= mix(vec3f(1.0), (*m).vein_color, (*m).veins * sclera_veins(place, surface_rho));
-    var moved = s;
+    var moved = *s;
     moved.normal = e.ball;
     moved.n_dot_l = dot(e.ball, frame.to_light);
-    var l = physical_light(moved, true);
+    var l = physical_light(&moved, true);
     // The shadow map knows the lids as well.
     let arrives = l.own_lit * sqrt(e.open);
     var light = mix(sclera * sclera_light(e, frame.to_light), iris * iris_light(e, frame.to_light * e.axes), e.on_cornea);

@@ -7,7 +7,7 @@ import package::lib::fire::{fire_color, fire_cover, fire_heated, fire_noise, fir
 import package::material::{fire_heat, fire_heat_sampler, material};
 
 // Its colour and cover.
-fn burning_shape(s: Surface) -> vec4f {
+fn burning_shape(s: ptr<function, Surface>) -> vec4f {
     let m = &material.fire;
     var at = texture_uv(s.uv, m.heat_uv);
     let phase = fract(frame.time_s / m.period_s);
@@ -22,7 +22,7 @@ fn burning_shape(s: Surface) -> vec4f {
     );
 }
 
-fn fire_model(s: Surface) -> Shaded {
+fn fire_model(s: ptr<function, Surface>) -> Shaded {
     var l = shaded_of(s);
     let shape = burning_shape(s);
     l.direct = shape.rgb;
@@ -33,7 +33,7 @@ fn fire_model(s: Surface) -> Shaded {
 }
 
 // It blooms whole.
-fn fire_emitted(s: Surface) -> vec3f {
+fn fire_emitted(s: ptr<function, Surface>) -> vec3f {
     let shape = burning_shape(s);
     return shape.rgb * shape.a;
 }

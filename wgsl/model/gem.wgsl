@@ -8,10 +8,11 @@ import package::material::{gem_inclusions, gem_inclusions_sampler, material};
 import package::model::standard::physical_light;
 import package::model::toon::{toon_border, toon_light};
 
-fn gem_model(s: Surface) -> Shaded {
+fn gem_model(s: ptr<function, Surface>) -> Shaded {
     let m = &material.gem;
     // What highlights fade by.
-    @if(toon) var l = toon_light(s, toon_border(s));
+    @if(toon) var b = toon_border(s);
+    @if(toon) var l = toon_light(s, &b);
     @if(!toon) var l = physical_light(s, s.n_dot_l > 0.0);
     // A shadow takes the key light; scattered light stays.
     let light = l.light * mix(0.3, 1.0, l.own_lit);

@@ -56,7 +56,7 @@ struct Lit {
 
 const PI: f32 = 3.14159265;
 
-fn strand_of(s: Surface) -> Strand {
+fn strand_of(s: ptr<function, Surface>) -> Strand {
     var strand: Strand;
     strand.direction = strand_direction(s);
     strand.shift = strand_shift(s);
@@ -83,13 +83,13 @@ fn strand_of(s: Surface) -> Strand {
 }
 
 // Where a strand mirrors the viewer to: in the plane of the view and of its normal that faces it.
-fn strand_mirrored(s: Surface, t: vec3f) -> vec3f {
+fn strand_mirrored(s: ptr<function, Surface>, t: vec3f) -> vec3f {
     let across = s.view - t * dot(t, s.view);
     return reflect(-s.view, across * inverseSqrt(max(dot(across, across), 1e-8)));
 }
 
 @if(hair_kajiya_kay)
-fn strand_lit(s: Surface, strand: Strand, to_light: vec3f, share: f32) -> Lit {
+fn strand_lit(s: ptr<function, Surface>, strand: Strand, to_light: vec3f, share: f32) -> Lit {
     let m = &material.hair;
     let h = normalize(s.view + to_light);
     let first = shifted_strand(strand.direction, s.normal, m.kajiya_kay_primary_shift + strand.shift);
@@ -113,7 +113,7 @@ fn strand_lit(s: Surface, strand: Strand, to_light: vec3f, share: f32) -> Lit {
 }
 
 @if(hair_kajiya_kay)
-fn strand_lit_from_around(s: Surface, strand: Strand) -> Lit {
+fn strand_lit_from_around(s: ptr<function, Surface>, strand: Strand) -> Lit {
     let m = &material.hair;
     let left = 1.0 - m.kajiya_kay_gray_scale * luminance(strand.color);
     var lit: Lit;
@@ -146,7 +146,7 @@ fn inclination_row(cos_o: f32) -> f32 {
 
 // How much more a strand absorbs than the hair about it, by a texture of strands and by its mean over 16 by 16 texels.
 @if(hair_varied)
-fn strand_variation(s: Surface) -> f32 {
+fn strand_variation(s: ptr<function, Surface>) -> f32 {
     let at = texture_uv(s.uv, material.base.texture_uv);
     let about = luminance(textureSampleLevel(base_texture, base_texture_sampler, at, 4.0).rgb);
     let darker = (about + 0.02) / (luminance(s.texel.rgb) + 0.02);
@@ -156,7 +156,7 @@ fn strand_variation(s: Surface) -> f32 {
 
 // Absorption of a strand, by its pigment or by its colour.
 @if(hair_fibre)
-fn strand_absorption(s: Surface, strand: Strand) -> vec3f {
+fn strand_absorption(s: ptr<function, Surface>, strand: Strand) -> vec3f {
     let m = &material.hair;
     var sigma = m.fibre_absorption;
     @if(hair_varied) sigma *= strand_variation(s);
@@ -197,7 +197,7 @@ fn body_share(forwards: vec3f, n_dot_l: f32, n_dot_v: f32, packing: f32) -> vec3
 }
 
 @if(hair_fibre)
-fn strand_lit(s: Surface, strand: Strand, to_light: vec3f, share: f32) -> Lit {
+fn strand_lit(s: ptr<function, Surface>, strand: Strand, to_light: vec3f, share: f32) -> Lit {
     let m = &material.hair;
     let sin_o = strand.sin_o;
     let cos_o = strand.cos_o;
@@ -255,7 +255,7 @@ fn strand_lit(s: Surface, strand: Strand, to_light: vec3f, share: f32) -> Lit {
 }
 
 @if(hair_fibre)
-fn strand_lit_from_around(s: Surface, strand: Strand) -> Lit {
+fn strand_lit_from_around(s: ptr<function, Surface>, strand: Strand) -> Lit {
     let m = &material.hair;
     let e = strand.energies;
     var lit: Lit;
@@ -280,7 +280,7 @@ fn strand_highlights(light: vec3f) -> vec3f {
     }
 }
 
-fn hair_model(s: Surface) -> Shaded {
+fn hair_model(s: ptr<function, Surface>) -> Shaded {
     let m = &material.hair;
     let strand = strand_of(s);
     @if(channel_strands) shown = strand.direction * 0.5 + 0.5;

@@ -57,7 +57,7 @@ fn skin_albedo(n_dot: f32) -> f32 {
     return skin_entry(albedo_place(n_dot)).r * material.skin.specular_strength;
 }
 
-fn skin_of(s: Surface) -> Skinned {
+fn skin_of(s: ptr<function, Surface>) -> Skinned {
     let m = &material.skin;
     var skin: Skinned;
     let mm = 1000.0 * m.profile_world_scale;
@@ -88,7 +88,7 @@ fn skin_of(s: Surface) -> Skinned {
 }
 
 // What the surface lets in of a light, and scatters to where it comes out: over the light's strength.
-fn skin_diffused(s: Surface, skin: Skinned, to_light: vec3f) -> vec3f {
+fn skin_diffused(s: ptr<function, Surface>, skin: Skinned, to_light: vec3f) -> vec3f {
     let m = &material.skin;
     let n_dot_l = dot(s.normal, to_light);
     @if(skin_lambert || skin_screen_space || skin_texture_space) return vec3f(saturate(n_dot_l));
@@ -106,7 +106,7 @@ fn skin_diffused(s: Surface, skin: Skinned, to_light: vec3f) -> vec3f {
 }
 
 // Density of what is mirrored times pi, without Fresnel's factor: a light of strength 1 is an irradiance of pi.
-fn skin_lobe(s: Surface, skin: Skinned, h: vec3f, to_light: vec3f) -> f32 {
+fn skin_lobe(s: ptr<function, Surface>, skin: Skinned, h: vec3f, to_light: vec3f) -> f32 {
     let m = &material.skin;
     let n_dot_l = max(dot(s.normal, to_light), 1e-4);
     let n_dot_h = saturate(dot(s.normal, h));
@@ -119,7 +119,7 @@ fn skin_lobe(s: Surface, skin: Skinned, h: vec3f, to_light: vec3f) -> f32 {
 }
 
 // Light of one direction, of which a share of each colour arrives, and a share at the surface itself.
-fn skin_lit(s: Surface, skin: Skinned, to_light: vec3f, spread: vec3f, share: f32) -> Lit {
+fn skin_lit(s: ptr<function, Surface>, skin: Skinned, to_light: vec3f, spread: vec3f, share: f32) -> Lit {
     let n_dot_l = saturate(dot(s.normal, to_light));
     let h = normalize(s.view + to_light);
     var lit: Lit;
@@ -148,8 +148,8 @@ struct Share {
 }
 
 // The place in the shadow map from which light that scatters comes: round the edge of light the body itself does not hide it.
-fn skin_receiver(s: Surface, skin: Skinned) -> Surface {
-    var moved = s;
+fn skin_receiver(s: ptr<function, Surface>, skin: Skinned) -> Surface {
+    var moved = *s;
     @if(cast_shadow && (skin_pre_integrated || skin_wrapped)) {
         // The way in the dark along a bulge, mm; light has come twice as far through it.
         let dark = max(-s.n_dot_l, 0.0) / max(abs(skin.curvature), 1e-3);
@@ -159,7 +159,7 @@ fn skin_receiver(s: Surface, skin: Skinned) -> Surface {
     return moved;
 }
 
-fn skin_share(s: Surface, skin: Skinned, lit: f32) -> Share {
+fn skin_share(s: ptr<function, Surface>, skin: Skinned, lit: f32) -> Share {
     var share = Share(vec3f(lit), lit);
     @if(cast_shadow && skin_penumbra) {
         let a = &actors[s.at.actor];
@@ -177,7 +177,7 @@ fn skin_share(s: Surface, skin: Skinned, lit: f32) -> Share {
 }
 
 // Way of the key light through the body, mm.
-fn skin_way(s: Surface, skin: Skinned) -> f32 {
+fn skin_way(s: ptr<function, Surface>, skin: Skinned) -> f32 {
     var way = skin.thickness;
     @if(cast_shadow) {
         let mm = 1000.0 * material.skin.profile_world_scale;
@@ -191,7 +191,7 @@ fn skin_way(s: Surface, skin: Skinned) -> f32 {
 }
 
 // Irradiance over pi of all lights, before it scatters.
-fn skin_irradiance(s: Surface) -> vec3f {
+fn skin_irradiance(s: ptr<function, Surface>) -> vec3f {
     let skin = skin_of(s);
     let l = physical_light(s, s.n_dot_l > 0.0);
     var sum = skin_diffused(s, skin, frame.to_light) * s.light * (l.own_lit * (1.0 - skin_albedo(saturate(s.n_dot_l))));
@@ -207,7 +207,7 @@ fn skin_irradiance(s: Surface) -> vec3f {
 
 // Light that has scattered, where the picture has it: at borders, that of pixels beside.
 @if(skin_screen_space)
-fn skin_scattered(s: Surface) -> vec3f {
+fn skin_scattered(s: ptr<function, Surface>) -> vec3f {
     let at = vec2i(s.at.clip_position.xy);
     let last = vec2i(textureDimensions(frame_scattered)) - 1;
     let here = distance_here(s.at.clip_position);
@@ -228,7 +228,7 @@ fn skin_scattered(s: Surface) -> vec3f {
 
 // The same where the texture coordinates have it; `unspread` where the actor has no layer.
 @if(skin_texture_space)
-fn skin_of_layer(s: Surface, unspread: vec3f) -> vec3f {
+fn skin_of_layer(s: ptr<function, Surface>, unspread: vec3f) -> vec3f {
     let m = &material.skin;
     let first = actors[s.at.actor].skin_layer;
     let at = s.at.uv.xy * m.layer_uv.xy + m.layer_uv.zw;
@@ -243,15 +243,16 @@ fn skin_of_layer(s: Surface, unspread: vec3f) -> vec3f {
 
 // Drawn alone.
 @if(skin_drawn)
-fn skin_model(s: Surface) -> Shaded {
+fn skin_model(s: ptr<function, Surface>) -> Shaded {
     return toon_model(s);
 }
 
 @if(!skin_drawn)
-fn skin_model(s: Surface) -> Shaded {
+fn skin_model(s: ptr<function, Surface>) -> Shaded {
     let m = &material.skin;
     let skin = skin_of(s);
-    @if(skin_pre_integrated || skin_wrapped) var l = physical_light(skin_receiver(s, skin), true);
+    @if(skin_pre_integrated || skin_wrapped) var receiver = skin_receiver(s, skin);
+    @if(skin_pre_integrated || skin_wrapped) var l = physical_light(&receiver, true);
     @if(!skin_pre_integrated && !skin_wrapped) var l = physical_light(s, s.n_dot_l > 0.0);
     l.gi *= occluded_diffuse(skin.open, s.lit);
     let share = skin_share(s, skin, l.own_lit);

@@ -22,7 +22,7 @@ struct Substance {
 }
 
 // Radiance over the light of one direction.
-fn standard_lobe(s: Surface, m: Substance, to_light: vec3f) -> vec3f {
+fn standard_lobe(s: ptr<function, Surface>, m: Substance, to_light: vec3f) -> vec3f {
     let n_dot_l = saturate(dot(s.normal, to_light));
     let h = normalize(s.view + to_light);
     let n_dot_h = saturate(dot(s.normal, h));
@@ -35,18 +35,19 @@ fn standard_lobe(s: Surface, m: Substance, to_light: vec3f) -> vec3f {
 
 // Light on a surface without tones: what of the key light arrives where it is `wanted`, by the looks that shade toon surfaces,
 // and what comes from all around.
-fn physical_light(s: Surface, wanted: bool) -> Shaded {
+fn physical_light(s: ptr<function, Surface>, wanted: bool) -> Shaded {
     var l = shaded_of(s);
     var b = border_of(s);
     b.shade = s.lit;
     b.shading = f32(wanted);
-    l.shading = stage_shade(s, b).shading;
+    stage_shade(s, &b);
+    l.shading = b.shading;
     l.own_lit = l.shading;
     l.gi = environment_irradiance(s.normal);
     return l;
 }
 
-fn standard_model(s: Surface) -> Shaded {
+fn standard_model(s: ptr<function, Surface>) -> Shaded {
     let numbers = &material.standard;
     var l = physical_light(s, s.n_dot_l > 0.0);
     var metallic = numbers.metallic;

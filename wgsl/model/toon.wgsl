@@ -19,7 +19,7 @@ fn soft_width() -> f32 {
 }
 
 // Where light ends: on the normals, and then as looks have it.
-fn toon_border(s: Surface) -> Border {
+fn toon_border(s: ptr<function, Surface>) -> Border {
     var b = border_of(s);
     var shift = material.toon.shift;
     @if(toon_shift_texture) shift += material.toon.shift_texture_scale * textureSample(
@@ -29,14 +29,14 @@ fn toon_border(s: Surface) -> Border {
     b.shift = shift;
     @if(soft) b.soft = smoothstep(-soft_width(), soft_width(), s.n_dot_l + shift);
     @if(skin_edge) b.edge = clamp(asin(clamp(s.n_dot_l + shift, -1.0, 1.0)) / skin_edge_angle(s), -2.0, 2.0);
-    b = stage_shade(s, b);
+    stage_shade(s, &b);
     @if(channel_face_shadow && face_shadow) shown = vec3f(b.shading);
     @if(channel_face_shadow && !face_shadow) shown = vec3f(b.shading) * 0.25;
     return b;
 }
 
 // Light on a toon surface, for whatever its colour becomes.
-fn toon_light(s: Surface, b: Border) -> Shaded {
+fn toon_light(s: ptr<function, Surface>, b: ptr<function, Border>) -> Shaded {
     var l = shaded_of(s);
     l.lit = b.lit;
     l.shading = b.shading;
@@ -45,9 +45,9 @@ fn toon_light(s: Surface, b: Border) -> Shaded {
     return l;
 }
 
-fn toon_model(s: Surface) -> Shaded {
-    let b = toon_border(s);
-    var l = toon_light(s, b);
+fn toon_model(s: ptr<function, Surface>) -> Shaded {
+    var b = toon_border(s);
+    var l = toon_light(s, &b);
     l.ambient = l.gi * b.lit;
     @if(shade_ramp) {
         var ramped = ramp_color(s.uv, b.lit, b.shade, b.soft);
@@ -56,13 +56,13 @@ fn toon_model(s: Surface) -> Shaded {
         @if(channel_shade_ramp) shown = vec3f(b.soft * (1.0 - b.received));
     }
     @if(!shade_ramp) l.direct = mtoon_direct(b.lit * b.tint, b.shade, b.shading, s.light) * b.bangs;
-    @if(skin_edge) l.direct = skin_edge(s, b, l.direct);
-    @if(punctual) l.direct += light_of_lamps(s, b);
+    @if(skin_edge) l.direct = skin_edge(s, &b, l.direct);
+    @if(punctual) l.direct += light_of_lamps(s, &b);
     return l;
 }
 
 // What lamps add: each has a border of its own, and one shade at most.
-fn light_of_lamps(s: Surface, b: Border) -> vec3f {
+fn light_of_lamps(s: ptr<function, Surface>, b: ptr<function, Border>) -> vec3f {
     var lit = vec3f(0.0);
     var shade = vec3f(0.0);
     let key = luminance(frame.light_color);

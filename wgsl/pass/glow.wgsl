@@ -28,10 +28,11 @@ fn blooming(in: Varying, front_facing: bool) -> vec3f {
     var s = surface_of(in, front_facing);
     var left = stage_left(in);
     @if(blend) left *= saturate(s.alpha);
-    var light = stage_emitted(s) * material.glow.emission;
+    var light = stage_emitted(&s) * material.glow.emission;
     @if(lit) {
-        s = framed(s);
-        light += stage_glow(s, glow_border(s)) * frame.light_color * material.glow.highlight;
+        framed(&s);
+        var border = glow_border(&s);
+        light += stage_glow(&s, &border) * frame.light_color * material.glow.highlight;
     }
     return light * left;
 }

@@ -25,12 +25,15 @@ fn fs_main(in: Varying, @builtin(front_facing) front_facing: bool) -> Irradiance
     if stage_gone(in) {
         discard;
     }
-    let s = stage_paint(lit_by_lamps(framed(surface_of(in, front_facing))));
+    var s = surface_of(in, front_facing);
+    framed(&s);
+    lit_by_lamps(&s);
+    stage_paint(&s);
     let d = material.skin.profile_scattering_distance_mm / material.skin.profile_world_scale;
     // Of the triangle: normal maps change no area.
     let flat = abs(dot(normalize(in.normal), s.view));
     var light: SkinLight;
-    light.light = skin_irradiance(s);
+    light.light = skin_irradiance(&s);
     light.cosine = saturate(flat);
     light.distance = frame.near / max(in.clip_position.z, 1e-12);
     light.profile = u32(material.skin.profile_number);

@@ -34,12 +34,15 @@ fn fs_main(in: Varying) -> Irradiance {
         discard;
     }
     // Mirrored texture coordinates turn no surface.
-    let s = stage_paint(lit_by_lamps(framed(surface_of(in, true))));
+    var s = surface_of(in, true);
+    framed(&s);
+    lit_by_lamps(&s);
+    stage_paint(&s);
     let u = max(length(along_u), 1e-4);
     let v = dot(along_u, along_v) / u;
     let across = max(length(cross(along_u, along_v)) / u, 1e-4);
     let d = m.profile_scattering_distance_mm;
     return Irradiance(
-        vec4f(skin_irradiance(s), d.r), vec4f(in.world_position * mm, d.g), vec4f(u, v, across, d.b)
+        vec4f(skin_irradiance(&s), d.r), vec4f(in.world_position * mm, d.g), vec4f(u, v, across, d.b)
     );
 }
