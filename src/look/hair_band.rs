@@ -148,7 +148,7 @@ struct Light {
 fn light(scene: &Scene, material: usize) -> Light {
     let painted = Painted::new(scene, &scene.materials[material]);
     let parts = scene.meshes.iter().flat_map(|m| &m.primitives).filter(|p| p.material == material);
-    let mut colors: Vec<([f32; 3], f32)> = parts.flat_map(|p| painted.of_triangles(p).collect::<Vec<_>>()).collect();
+    let colors: Vec<([f32; 3], f32)> = parts.flat_map(|p| painted.of_triangles(p).collect::<Vec<_>>()).collect();
     let area: f32 = colors.iter().map(|(_, a)| a).sum();
     if area.is_nan() || area <= 0.0 {
         return Light { color: [1.0; 3], strength: 0.0, in_shade: 0.0 };
@@ -156,14 +156,15 @@ fn light(scene: &Scene, material: usize) -> Light {
     let mean = colors.iter().fold(Vec3::ZERO, |sum, (c, a)| sum + Vec3::from(*c) * (*a / area));
     let hair = Tone::of(mean.to_array());
     // A gloss that is painted stands out from most of the hair.
-    colors.sort_by(|(a, _), (b, _)| Tone::of(*a).lightness.total_cmp(&Tone::of(*b).lightness));
+    let mut tones: Vec<(f32, f32)> = colors.iter().map(|(c, a)| (Tone::of(*c).lightness, *a)).collect();
+    tones.sort_by(|(a, _), (b, _)| a.total_cmp(b));
     let at = |share: f32| {
         let mut left = area * share;
-        let found = colors.iter().find(|(_, a)| {
+        let found = tones.iter().find(|(_, a)| {
             left -= a;
             left <= 0.0
         });
-        found.map_or(0.0, |(c, _)| Tone::of(*c).lightness)
+        found.map_or(0.0, |(lightness, _)| *lightness)
     };
     let spread = at(0.95) - at(0.5);
     let is_painted = spread > 0.12;

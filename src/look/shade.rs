@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::f32::consts::PI;
 
 use glam::Vec3;
+use rayon::prelude::*;
 
 use super::anime::materials_of_any;
 use super::shade_texture::shaded;
@@ -47,15 +48,15 @@ pub(super) fn apply(scene: &mut Scene) {
     let face = role(&[Role::Face]);
     let picture = |index: &usize| Some(scene.materials.get(*index)?.base.texture?.texture);
     let of_others: BTreeSet<usize> = others.iter().filter_map(picture).collect();
+    let grey = scene.materials.iter().enumerate().filter(|(i, _)| !kept.contains(i)).filter_map(|(index, material)| {
+        let own = factor(material, &unprepared_or_not(material)?);
+        (is_grey(own) && luminance(own) <= FLAT).then_some((index, own))
+    });
+    let grey: Vec<(usize, [f32; 3])> = grey.collect();
+    let tones: Vec<Option<Mean>> = grey.par_iter().map(|(index, _)| mean(scene, *index)).collect();
     let mut chosen = BTreeMap::new();
     let mut palettes = BTreeSet::new();
-    for (index, material) in scene.materials.iter().enumerate().filter(|(i, _)| !kept.contains(i)) {
-        let Some(toon) = unprepared_or_not(material) else { continue };
-        let own = factor(material, &toon);
-        if !is_grey(own) || luminance(own) > FLAT {
-            continue;
-        }
-        let tone = mean(scene, index);
+    for ((index, own), tone) in grey.into_iter().zip(tones) {
         let new = match (skin.contains(&index), tone) {
             (true, _) if of_file.is_some() => of_file.unwrap_or_default(),
             // Hands are painted by what the palette's picture says.

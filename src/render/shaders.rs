@@ -46,7 +46,7 @@ const fn stage(name: &'static str, takes: &'static str, gives: &'static str, fol
 /// All stages; the first ones are of vertices.
 pub(crate) const STAGES: &[Stage] = &[
     stage("place", "clip: vec4f", "vec4f", Fold::Chain),
-    stage("vary", "v: Vertex, given: Varying", "Varying", Fold::Chain),
+    stage("vary", "v: Vertex, out: ptr<function, Varying>", "", Fold::Each),
     stage("vertex_uv", "uv: vec4f", "vec4f", Fold::Chain),
     stage("line", "width: f32", "f32", Fold::Chain),
     stage("uv", "uv: vec4f", "vec4f", Fold::Chain),

@@ -16,7 +16,9 @@ static DECODED: LazyLock<[f32; 256]> =
 /// The lit colours of a material.
 pub(crate) struct Painted<'a> {
     image: Option<&'a Image>,
+    /// Its rotation is below.
     transform: UvTransform,
+    sin_cos: (f32, f32),
     uv_set: usize,
     factor: [f32; 4],
 }
@@ -26,9 +28,11 @@ impl<'a> Painted<'a> {
         let base = &material.base;
         let texture = base.texture.and_then(|t| Some((t, scene.textures.get(t.texture)?)));
         let image = texture.and_then(|(_, texture)| scene.images.get(texture.image));
+        let transform = texture.map(|(t, _)| t.transform).unwrap_or_default();
         Self {
             image: image.filter(|i| i.pixels.len() == i.width as usize * i.height as usize * 4 && i.width > 0),
-            transform: texture.map(|(t, _)| t.transform).unwrap_or_default(),
+            transform,
+            sin_cos: transform.rotation_rad.sin_cos(),
             uv_set: texture.map_or(0, |(t, _)| t.uv_set as usize),
             factor: base.color,
         }
@@ -37,13 +41,12 @@ impl<'a> Painted<'a> {
     /// Linear colour and alpha at texture coordinates, of the nearest texel; textures repeat.
     pub(crate) fn at(&self, [u, v]: [f32; 2]) -> [f32; 4] {
         let Some(image) = self.image else { return self.factor };
-        let UvTransform { offset, rotation_rad, scale } = self.transform;
-        let (sin, cos) = rotation_rad.sin_cos();
+        let UvTransform { offset, scale, .. } = self.transform;
+        let (sin, cos) = self.sin_cos;
         let (u, v) = (u * scale[0], v * scale[1]);
         let place = |c: f32, side: u32| {
-            let whole = c.rem_euclid(1.0);
             // Hostile coordinates are not finite.
-            ((whole * side as f32) as u32).min(side - 1) as usize
+            (((c - c.floor()) * side as f32) as u32).min(side - 1) as usize
         };
         let x = place(u * cos + v * sin + offset[0], image.width);
         let y = place(v * cos - u * sin + offset[1], image.height);

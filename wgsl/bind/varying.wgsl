@@ -70,12 +70,13 @@ fn surface_varying(v: Vertex) -> Varying {
     @if(world) out.world_position = position;
     @if(normal) out.normal = world_direction(v, v.frame.x);
     @if(tangent) out.tangent = vec4f(world_direction(v, v.frame.y), bitangent_sign(v.frame.y));
-    return stage_vary(v, with_attributes(v, out));
+    with_attributes(v, &out);
+    stage_vary(v, &out);
+    return out;
 }
 
 // With what passes from vertex to fragment as it is.
-fn with_attributes(v: Vertex, given: Varying) -> Varying {
-    var out = given;
+fn with_attributes(v: Vertex, out: ptr<function, Varying>) {
     @if(uv) out.uv = v.uv;
     @if(vertex_color || strips) out.color = v.color;
     @if(actor) out.actor = v.actor;
@@ -89,7 +90,6 @@ fn with_attributes(v: Vertex, given: Varying) -> Varying {
     @if(eye_vertex) out.eye_axes = vec3u(
         v.eye_axes.x, packed_direction(world_direction(v, v.eye_axes.y)), packed_direction(world_direction(v, v.eye_axes.z))
     );
-    return out;
 }
 
 // A world direction by the axes of the face: to the character's left, up, forward.
@@ -103,7 +103,7 @@ fn in_face_frame(v: Vertex, d: vec3f) -> vec3f {
 
 // Direction of a place from the middle of its eye, by the axes of the face.
 @if(eye_vertex)
-fn eye_in_face(v: Vertex, given: Varying) -> vec3f {
-    let axes = eye_axes(given);
+fn eye_in_face(v: Vertex, given: ptr<function, Varying>) -> vec3f {
+    let axes = eye_axes(*given);
     return in_face_frame(v, axes * given.eye_place);
 }

@@ -16,11 +16,9 @@ struct BangsShadow {
 // What shade leaves of each colour of the white of an eye.
 const WHITE_SHADE: vec3f = vec3f(0.82, 0.8, 0.9);
 
-fn bangs_shadow_vary(v: Vertex, given: Varying) -> Varying {
-    var out = given;
+fn bangs_shadow_vary(v: Vertex, out: ptr<function, Varying>) {
     out.bangs = bangs_from_character(v.actor, v.position);
     out.bangs.z -= bangs_nearer(v.actor, out.normal);
-    return out;
 }
 
 fn bangs_shadow_shade(s: ptr<function, Surface>, b: ptr<function, Border>) {

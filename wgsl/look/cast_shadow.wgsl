@@ -14,8 +14,7 @@ struct CastShadow {
     received: f32,
 }
 
-fn cast_shadow_vary(v: Vertex, given: Varying) -> Varying {
-    var out = given;
+fn cast_shadow_vary(v: Vertex, out: ptr<function, Varying>) {
     out.shadow = shadow_receiver(v, out.world_position, out.normal);
     @if(face_shadow) {
         let from_middle = out.world_position - world_position(v, actors[v.actor].head);
@@ -24,7 +23,6 @@ fn cast_shadow_vary(v: Vertex, given: Varying) -> Varying {
     }
     // Shells of a coat lie over each other, and its hair is soft: once a vertex instead of once a pixel of each.
     @if(level) out.shadow.x = shadow_soft(v.actor, out.shadow, true);
-    return out;
 }
 
 // Share of what the map spreads that is soft on a coat.

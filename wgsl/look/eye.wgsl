@@ -50,8 +50,6 @@ struct Eye {
     rows: array<vec4f, 12>,
 }
 
-fn eye_vary(v: Vertex, given: Varying) -> Varying {
-    var out = given;
-    @if(eye_lids) out.eye_face = eye_in_face(v, given);
-    return out;
+fn eye_vary(v: Vertex, out: ptr<function, Varying>) {
+    @if(eye_lids) out.eye_face = eye_in_face(v, out);
 }

@@ -12,8 +12,7 @@ struct EyeCard {
     within_m: f32,
 }
 
-fn eye_card_vary(v: Vertex, given: Varying) -> Varying {
-    var out = given;
+fn eye_card_vary(v: Vertex, out: ptr<function, Varying>) {
     let m = &material.eye_card;
     let view = in_face_frame(v, normalize(frame.eye - world_position(v, actors[v.actor].head)));
     let shift = card_shift(
@@ -22,5 +21,4 @@ fn eye_card_vary(v: Vertex, given: Varying) -> Varying {
     let moved = world_rotated(v, actors[v.actor].face_left) * shift.x + world_rotated(v, actors[v.actor].face_up) * shift.y;
     out.clip_position += frame.clip_from_world * vec4f(moved, 0.0);
     @if(world) out.world_position += moved;
-    return out;
 }

@@ -47,11 +47,9 @@ fn eye_depth_seen(s: ptr<function, Surface>) -> vec2f {
     return bowl_place(flat, ray * vec3f(1.0, aspect, 1.0), (*m).depth / (*m).rim);
 }
 
-fn eye_depth_vary(v: Vertex, given: Varying) -> Varying {
-    var out = given;
+fn eye_depth_vary(v: Vertex, out: ptr<function, Varying>) {
     let a = &actors[v.actor];
     out.pupil = material.eye_depth.pupil_scale * mix(1.0, 0.25 * (*a).pupil_mm, (*a).pupil_reflex) * (*a).pupil_scale;
-    return out;
 }
 
 fn eye_depth_rows(s: ptr<function, Surface>) -> mat2x4f {

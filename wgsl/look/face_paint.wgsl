@@ -19,14 +19,12 @@ struct FacePaint {
     map_uv: UvTransform,
 }
 
-fn face_paint_vary(v: Vertex, given: Varying) -> Varying {
-    var out = given;
+fn face_paint_vary(v: Vertex, out: ptr<function, Varying>) {
     let view = in_face_frame(v, normalize(frame.eye - world_position(v, actors[v.actor].head)));
     // atan2(0, 0) is left to the driver.
     let yaw = atan2(abs(view.x), select(1e-6, view.z, abs(view.z) > 1e-6));
     let fade = material.face_paint.nose_line_yaw_rad;
     out.nose = smoothstep(fade.x, max(fade.y, fade.x + 1e-4), yaw);
-    return out;
 }
 
 fn face_paint_shade(s: ptr<function, Surface>, b: ptr<function, Border>) {

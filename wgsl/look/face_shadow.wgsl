@@ -23,13 +23,11 @@ struct FaceShadow {
     cosine: f32,
 }
 
-fn face_shadow_vary(v: Vertex, given: Varying) -> Varying {
-    var out = given;
+fn face_shadow_vary(v: Vertex, out: ptr<function, Varying>) {
     let light = in_face_frame(v, frame.to_light);
     let angle = face_light_angle(light, material.face_shadow.overhead_fade);
     let pitch = asin(clamp(light.y, -1.0, 1.0));
     out.face_light = vec4f(light.x, pitch, angle, face_measure(angle, material.face_shadow.cosine));
-    return out;
 }
 
 fn face_shadow_shade(s: ptr<function, Surface>, b: ptr<function, Border>) {

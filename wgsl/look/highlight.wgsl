@@ -25,15 +25,13 @@ struct Highlight {
     map_uv: UvTransform,
 }
 
-fn highlight_vary(v: Vertex, given: Varying) -> Varying {
-    var out = given;
+fn highlight_vary(v: Vertex, out: ptr<function, Varying>) {
     let m = &material.highlight;
     let view = normalize(frame.eye - world_position(v, actors[v.actor].head));
     let forward = world_rotated(v, actors[v.actor].face_forward);
     let up = world_rotated(v, actors[v.actor].face_up);
     let offset = highlight_offset(view, frame.to_light, forward, up, m.turn_u, m.light_v, m.view_v);
     out.moved = vec3f(offset, highlight_fade(dot(view, forward), dot(view, frame.to_light), m.facing));
-    return out;
 }
 
 // Shares of both layers, moved.

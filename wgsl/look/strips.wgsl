@@ -24,10 +24,8 @@ fn grayness_of_strips(in: Varying) -> f32 {
 }
 
 // Channels alone ask for the strip of a vertex: its number in 8 bits, and its turn in 8 above.
-fn strips_vary(v: Vertex, given: Varying) -> Varying {
-    var out = given;
+fn strips_vary(v: Vertex, out: ptr<function, Varying>) {
     @if(channel_strips || channel_strip_order) out.part = v.part >> 16u;
-    return out;
 }
 
 // After the model: what has no light shows its colour in every channel.

@@ -16,7 +16,8 @@ fn vs_main(in: VertexInput) -> Varying {
     var out: Varying;
     out.clip_position = vec4f(at.x * 2.0 - 1.0, 1.0 - at.y * 2.0, at.z, 1.0);
     out.depth = at.z;
-    return with_attributes(v, out);
+    with_attributes(v, &out);
+    return out;
 }
 
 @fragment

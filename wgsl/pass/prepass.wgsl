@@ -15,7 +15,8 @@ fn vs_main(in: VertexInput) -> Varying {
     @if(normal) out.normal = world_direction(v, v.frame.x);
     // Strips of hair have the bits above.
     @if(part) out.part = v.part & 0xffffu;
-    return with_attributes(v, out);
+    with_attributes(v, &out);
+    return out;
 }
 
 // World normal as an octahedral pair, and part index + 1; 0 is background.

@@ -11,7 +11,8 @@ fn vs_main(in: VertexInput) -> Varying {
     var out: Varying;
     // What stands before the map's range casts from its front.
     out.clip_position = vec4f(at.x * 2.0 - 1.0, 1.0 - at.y * 2.0, max(at.z, 0.0), 1.0);
-    return with_attributes(v, out);
+    with_attributes(v, &out);
+    return out;
 }
 
 @if(cut)

@@ -13,7 +13,8 @@ fn vs_main(in: VertexInput) -> Varying {
     out.clip_position = frame.clip_from_world * vec4f(position, 1.0);
     out.world_position = position;
     out.before = (frame.clip_before * vec4f(position_before(in), 1.0)).xyw;
-    return with_attributes(v, out);
+    with_attributes(v, &out);
+    return out;
 }
 
 @fragment

@@ -100,7 +100,7 @@ impl Guide {
 
     fn worst(&self, width: usize, cells: &[usize], feature: Feature, toon: &Toon, shades: [f32; 2]) -> Contrast {
         let thresholds: Vec<[f32; 3]> = cells.iter().map(|i| self.thresholds.of_cell(*i)).collect();
-        let lights = (0..LIGHTS).map(|i| {
+        let lights = (0..LIGHTS).into_par_iter().map(|i| {
             let yaw = (i as f32 / (LIGHTS - 1) as f32 * 2.0 - 1.0) * WIDEST;
             let to_light = Vec3::new(yaw.sin() * PITCH.cos(), PITCH.sin(), yaw.cos() * PITCH.cos());
             let by_file: Vec<f32> = cells.iter().map(|i| own(toon, self.relief.normals[*i], to_light)).collect();
@@ -114,7 +114,8 @@ impl Guide {
         });
         let share = |c: &Contrast| if c.before > SEEN { c.after / c.before } else { f32::MAX };
         let none = Contrast { feature, yaw_deg: 0.0, before: 0.0, after: 0.0 };
-        lights.min_by(|a, b| share(a).total_cmp(&share(b))).unwrap_or(none)
+        let lights: Vec<Contrast> = lights.collect();
+        lights.into_iter().min_by(|a, b| share(a).total_cmp(&share(b))).unwrap_or(none)
     }
 
     /// Leaves a feature to the file's own shading by a share, with a smooth border.

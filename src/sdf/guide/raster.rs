@@ -1,6 +1,6 @@
 //! Triangles written into a square picture.
 
-use glam::Vec2;
+use glam::{Vec2, Vec3A};
 
 /// Texels that the triangles' boxes may cover in all, in pictures: those of an unwrapped face cover it about twice, and a
 /// hostile file must not keep us busy.
@@ -46,12 +46,16 @@ impl<const N: usize> Raster<N> {
         if area.abs() < 1e-9 || !area.is_finite() {
             return Some(());
         }
+        // Shares of the three corners at once.
+        let (along, from) = ([r - q, p - r, q - p], [q, r, p]);
+        let [along_x, from_x] = [along, from].map(|of| Vec3A::from(of.map(|p| p.x)));
+        let [along_y, from_y] = [along, from].map(|of| Vec3A::from(of.map(|p| p.y)));
         for y in top..=bottom {
+            let of_row = along_x * (y as f32 - from_y);
             for x in left..=right {
-                let at = Vec2::new(x as f32, y as f32);
-                let (u, v, w) =
-                    ((r - q).perp_dot(at - q) / area, (p - r).perp_dot(at - r) / area, (q - p).perp_dot(at - p) / area);
-                if u.min(v).min(w) >= -1e-4 {
+                let shares = (of_row - along_y * (x as f32 - from_x)) / area;
+                if shares.min_element() >= -1e-4 {
+                    let [u, v, w] = shares.to_array();
                     let texel = &mut self.texels[y * self.side + x];
                     let value = std::array::from_fn(|i| a.value[i] * u + b.value[i] * v + c.value[i] * w);
                     if texel.as_ref().is_none_or(|old| wins(old, &value)) {

@@ -151,30 +151,45 @@ pub(super) fn sample(field: &[f32], place: Vec2) -> f32 {
     row(j) * (1.0 - t) + row(l) * t
 }
 
+/// Columns that are smoothed side by side.
+const STRIP: usize = 16;
+
 /// A field smoothed by a bell of this half width (standard deviation), cells across and down.
 pub(super) fn smoothed(field: &[f32], across: f32, down: f32) -> Field {
     let mut out = field.to_vec();
     for width in [across, down] {
-        let reach = width.round() as usize;
-        // Three boxes are nearly a bell.
-        out.par_chunks_exact_mut(SIDE).for_each(|row| (0..3).for_each(|_| boxed(row, reach)));
+        let rows = out;
+        out = vec![0.0; SIDE * SIDE];
+        out.par_chunks_exact_mut(STRIP * SIDE).zip(rows.par_chunks_exact(STRIP * SIDE)).for_each(|(to, from)| {
+            let mut strip: Vec<[f32; STRIP]> =
+                (0..SIDE).map(|x| std::array::from_fn(|row| from[row * SIDE + x])).collect();
+            // Three boxes are nearly a bell.
+            (0..3).for_each(|_| boxed(&mut strip, width.round() as usize));
+            for (row, to) in to.chunks_exact_mut(SIDE).enumerate() {
+                to.iter_mut().zip(&strip).for_each(|(to, cell)| *to = cell[row]);
+            }
+        });
         out = turned(&out);
     }
     out
 }
 
-/// A row's means of as many cells on both sides; the ends go on beyond the edges.
-fn boxed(row: &mut [f32], reach: usize) {
+/// Means of as many cells on both sides along rows that lie side by side; the ends go on beyond the edges.
+fn boxed(strip: &mut [[f32; STRIP]], reach: usize) {
     if reach == 0 {
         return;
     }
-    let old: [f32; SIDE] = std::array::from_fn(|x| row[x]);
-    let at = |x: usize| old[x.saturating_sub(reach).min(SIDE - 1)];
+    let old = strip.to_vec();
+    let at = |x: usize| &old[x.saturating_sub(reach).min(SIDE - 1)];
     let count = (2 * reach + 1) as f32;
-    let mut sum: f32 = (0..=2 * reach).map(at).sum();
-    for (x, value) in row.iter_mut().enumerate() {
-        *value = sum / count;
-        sum += at(x + 2 * reach + 1) - at(x);
+    let mut sums = [0.0; STRIP];
+    for x in 0..=2 * reach {
+        sums.iter_mut().zip(at(x)).for_each(|(sum, value)| *sum += value);
+    }
+    for (x, cell) in strip.iter_mut().enumerate() {
+        *cell = sums.map(|sum| sum / count);
+        let (next, last) = (at(x + 2 * reach + 1), at(x));
+        sums.iter_mut().zip(next.iter().zip(last)).for_each(|(sum, (next, last))| *sum += next - last);
     }
 }
 

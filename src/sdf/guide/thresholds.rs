@@ -35,28 +35,33 @@ impl Thresholds {
         let share = smoothed(&relief.share, 2.0 * degree, 0.01 * row);
         // Normals of few triangles shade in patches: there the map reaches farther back.
         let farther_deg = ((fine - 0.011) / 0.03).clamp(0.0, 1.0) * 15.0;
+        let angles: [(f32, f32); SIDE] = std::array::from_fn(|x| {
+            let angle = Relief::angle(x as f32);
+            (angle, angle.sin())
+        });
         let cells = (0..SIDE * SIDE).into_par_iter();
-        let both: Vec<(f32, f32)> = cells
+        let (mut from_left, mut normal): (Field, Field) = cells
             .map(|i| {
                 let (x, y) = (i % SIDE, i / SIDE);
-                let angle = Relief::angle(x as f32);
+                let (angle, sin) = angles[x];
                 let turned = azimuth(&head, x, y);
-                let raised = (features[i] - head[i]) / relief.height;
-                let across = angle.sin() * relief.distance[i] / relief.height;
+                let across = sin * relief.distance[i] / relief.height;
                 let place = Vec2::new(across, 1.0 - (y as f32 + 0.5) / SIDE as f32);
                 // The line between light and shade runs round what stands out.
-                let round = landmarks.map_or(0.0, |l| {
+                let in_front = smoothstep(40.0, 15.0, angle.to_degrees().abs());
+                let round = landmarks.filter(|_| in_front > 0.0).map_or(0.0, |l| {
+                    let raised = (features[i] - head[i]) / relief.height;
                     // Few triangles say more by their normals than by where they lie.
                     let slope = (facing[i] - turned).to_degrees().clamp(-60.0, 60.0);
                     let by_height = (raised * 1000.0).clamp(-12.0, 22.0);
-                    (by_height * modelled + slope * (1.0 - modelled))
-                        * (1.0 - near_eye(l, place))
-                        * smoothstep(40.0, 15.0, angle.to_degrees().abs())
+                    (by_height * modelled + slope * (1.0 - modelled)) * (1.0 - near_eye(l, place)) * in_front
                 });
                 let mut dark_at = 90.0 + turned.to_degrees() + round;
                 if let Some(landmarks) = landmarks {
                     dark_at += modelled * cheek_light(landmarks, place, dark_at);
-                    dark_at += (1.0 - modelled) * cheek(landmarks, place);
+                    if modelled < 1.0 {
+                        dark_at += (1.0 - modelled) * cheek(landmarks, place);
+                    }
                     dark_at = drawn(landmarks, style, place, dark_at);
                 }
                 let behind = smoothstep(77.0 + farther_deg, 100.0 + farther_deg, turned.to_degrees().abs());
@@ -70,9 +75,7 @@ impl Thresholds {
                 let below = smoothstep(0.98, 0.75, share[i]).max(under).max(over);
                 ((dark_at / 180.0).clamp(0.0, 1.0), behind.max(below))
             })
-            .collect();
-        let mut from_left: Field = both.iter().map(|(dark, _)| *dark).collect();
-        let mut normal: Field = both.iter().map(|(_, normal)| *normal).collect();
+            .unzip();
         if let Some(landmarks) = landmarks.filter(|l| l.mouth_is_bare()) {
             mouth(relief, landmarks, &mut from_left);
         }
@@ -136,13 +139,16 @@ fn near_eye(l: &Landmarks, place: Vec2) -> f32 {
 fn cheek_light(l: &Landmarks, place: Vec2, dark_at: f32) -> f32 {
     // The far side of light from the left.
     let side = -place.x;
+    if side <= 0.0 {
+        return 0.0;
+    }
     let top = l.eye[1] - 0.9 * l.eye_half[1];
     let bottom = l.mouth + 0.25 * (l.nose - l.mouth);
     let down = (top - place.y) / (top - bottom).max(1e-4);
     let half = l.eye_half[0] * (1.05 - 0.85 * down);
     let inside = smoothstep(1.0, 0.25, (side - l.eye[0] * (1.0 - 0.12 * down)).abs() / half.max(1e-4));
     let within = smoothstep(-0.25, 0.1, down) * smoothstep(1.05, 0.6, down);
-    (100.0 - dark_at).clamp(0.0, 26.0) * inside * within * f32::from(u8::from(side > 0.0))
+    (100.0 - dark_at).clamp(0.0, 26.0) * inside * within
 }
 
 /// How much longer light stays on the cheek, degrees, where a mesh models none: the border of light bends round it, and
