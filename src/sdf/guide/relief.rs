@@ -151,25 +151,25 @@ pub(super) fn sample(field: &[f32], place: Vec2) -> f32 {
     row(j) * (1.0 - t) + row(l) * t
 }
 
-/// Columns that are smoothed side by side.
+/// Rows that are smoothed side by side.
 const STRIP: usize = 16;
 
 /// A field smoothed by a bell of this half width (standard deviation), cells across and down.
 pub(super) fn smoothed(field: &[f32], across: f32, down: f32) -> Field {
     let mut out = field.to_vec();
     for width in [across, down] {
-        let rows = out;
-        out = vec![0.0; SIDE * SIDE];
-        out.par_chunks_exact_mut(STRIP * SIDE).zip(rows.par_chunks_exact(STRIP * SIDE)).for_each(|(to, from)| {
+        let strips = out.par_chunks_exact(STRIP * SIDE).map(|rows| {
             let mut strip: Vec<[f32; STRIP]> =
-                (0..SIDE).map(|x| std::array::from_fn(|row| from[row * SIDE + x])).collect();
+                (0..SIDE).map(|x| std::array::from_fn(|row| rows[row * SIDE + x])).collect();
             // Three boxes are nearly a bell.
             (0..3).for_each(|_| boxed(&mut strip, width.round() as usize));
-            for (row, to) in to.chunks_exact_mut(SIDE).enumerate() {
-                to.iter_mut().zip(&strip).for_each(|(to, cell)| *to = cell[row]);
-            }
+            strip
         });
-        out = turned(&out);
+        let strips: Vec<_> = strips.collect();
+        // Turned: what was across is down the next time.
+        out.par_chunks_exact_mut(SIDE).enumerate().for_each(|(x, row)| {
+            row.chunks_exact_mut(STRIP).zip(&strips).for_each(|(to, strip)| to.copy_from_slice(&strip[x]));
+        });
     }
     out
 }
@@ -191,14 +191,6 @@ fn boxed(strip: &mut [[f32; STRIP]], reach: usize) {
         let (next, last) = (at(x + 2 * reach + 1), at(x));
         sums.iter_mut().zip(next.iter().zip(last)).for_each(|(sum, (next, last))| *sum += next - last);
     }
-}
-
-fn turned(field: &[f32]) -> Field {
-    let mut out = vec![0.0; SIDE * SIDE];
-    out.par_chunks_exact_mut(SIDE).enumerate().for_each(|(x, row)| {
-        row.iter_mut().zip(field[x..].iter().step_by(SIDE)).for_each(|(to, from)| *to = *from);
-    });
-    out
 }
 
 /// The parts of a material that are a face, what takes each to the world at rest, and how much of each vertex follows the head.
