@@ -3,6 +3,7 @@
 #[path = "../support/gltf.rs"]
 mod gltf;
 
+mod anime_look;
 mod expressions;
 mod eye;
 mod golden_comparer;
