@@ -46,11 +46,16 @@ const LAB_FROM_ROOTS: Mat3 = Mat3::from_cols_array(&[
 /// Of the second matrix, and of the first.
 static INVERSES: LazyLock<[Mat3; 2]> = LazyLock::new(|| [LAB_FROM_ROOTS.inverse(), LMS_FROM_LINEAR.inverse()]);
 
+/// Lightness, and how red and how yellow, of a linear colour: the rectangular form of a [`Tone`].
+pub(crate) fn oklab(linear: [f32; 3]) -> Vec3 {
+    let lms = LMS_FROM_LINEAR * Vec3::from(linear).max(Vec3::ZERO);
+    LAB_FROM_ROOTS * Vec3::new(lms.x.cbrt(), lms.y.cbrt(), lms.z.cbrt())
+}
+
 impl Tone {
     /// Of a linear colour.
     pub(crate) fn of(linear: [f32; 3]) -> Self {
-        let lms = LMS_FROM_LINEAR * Vec3::from(linear).max(Vec3::ZERO);
-        let [lightness, a, b] = (LAB_FROM_ROOTS * Vec3::new(lms.x.cbrt(), lms.y.cbrt(), lms.z.cbrt())).to_array();
+        let [lightness, a, b] = oklab(linear).to_array();
         Self { lightness, chroma: a.hypot(b), hue_rad: b.atan2(a) }
     }
 

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use glam::{Quat, Vec3};
+use rayon::prelude::*;
 
 use super::{Anime, hair_band, shade};
 use crate::color::LinearRgb;
@@ -12,7 +13,7 @@ use crate::material::{
     ShapedHighlight, Sparkle, Stocking, Substance, TintSource, Transition,
 };
 use crate::scene::{Bangs, Bloom, EyesThrough, Post, Role, Scene, SelfShadow, Warning};
-use crate::sdf::{FaceMap, FaceStyle, Feature, Guide, Sides};
+use crate::sdf::{FaceMap, Feature, Guide, Sides};
 use crate::smoothstep::smoothstep;
 
 /// Materials that get a face's shadow: characters have one to three, and a file of thousands must not fill the memory.
@@ -20,14 +21,17 @@ const MOST_FACES: usize = 16;
 
 pub(super) fn apply(scene: &mut Scene, look: &Anime) {
     let before: Vec<[f32; 3]> = scene.materials.iter().map(shade_factor).collect();
-    shade::apply(scene);
+    let of_faces: Vec<usize> = materials_of(scene, Role::Face).into_iter().take(MOST_FACES).collect();
+    let guides = || of_faces.par_iter().map(|face| Guide::new(scene, *face, look.face_style)).collect::<Vec<_>>();
+    let (guides, greys) = rayon::join(guides, || shade::greys(scene));
+    shade::apply(scene, greys);
     scene.bangs = Some(Bangs::default());
     scene.eyes_through = Some(EyesThrough::default());
     outlines(scene);
     borders(scene);
     round_hair(scene);
     hair(scene, look);
-    faces(scene, look, &before);
+    faces(scene, look, of_faces.into_iter().zip(guides), &before);
     body_rims(scene);
     self_shadow(scene);
     eyes(scene);
@@ -152,9 +156,10 @@ fn self_shadow(scene: &mut Scene) {
     let face = materials_of_any(scene, &[Role::Face]);
     for index in materials_of_any(scene, &[Role::Face, Role::Skin, Role::Cloth, Role::Accessory, Role::Other]) {
         let material = &mut scene.materials[index];
-        // A face without a map would get all of it.
+        // A face without a map would get all of it; what is as bright in shade as in light shows none.
         let is_bare = face.contains(&index) && material.face_shadow.is_none();
-        let received = if is_bare { 0.0 } else { 1.0 };
+        let is_flat = own_shade_factor(material) == Some([1.0; 3]);
+        let received = if is_bare || is_flat { 0.0 } else { 1.0 };
         if material.alpha.mode != AlphaMode::Blend {
             material.cast_shadow = Some(CastShadow { casts: material.alpha.mode == AlphaMode::Opaque, received });
         }
@@ -242,11 +247,11 @@ fn body_rims(scene: &mut Scene) {
     }
 }
 
-fn faces(scene: &mut Scene, look: &Anime, before: &[[f32; 3]]) {
-    for index in materials_of(scene, Role::Face).into_iter().take(MOST_FACES) {
+fn faces(scene: &mut Scene, look: &Anime, guides: impl Iterator<Item = (usize, Option<Guide>)>, before: &[[f32; 3]]) {
+    for (index, guide) in guides {
         let guide = match look.face {
-            Some(_) => Guide::new(scene, index, look.face_style),
-            None => safe_guide(scene, index, look.face_style, before),
+            Some(_) => guide,
+            None => guide.and_then(|guide| safe_guide(scene, index, guide, before)),
         };
         let map = guide.and_then(|guide| match &look.face {
             Some(painted) => Some(over(painted, &guide.over_texture(scene, index)?)),
@@ -397,8 +402,7 @@ const MOST_CHANGED: f32 = 0.4;
 
 /// The shadow made from a face's mesh, where it keeps what the face is read by: else the file's own shading is left there, and a
 /// warning says so.
-fn safe_guide(scene: &mut Scene, index: usize, style: FaceStyle, before: &[[f32; 3]]) -> Option<Guide> {
-    let mut guide = Guide::new(scene, index, style)?;
+fn safe_guide(scene: &mut Scene, index: usize, mut guide: Guide, before: &[[f32; 3]]) -> Option<Guide> {
     let material = &scene.materials[index];
     let Shading::Toon(toon) = material.shading else { return Some(guide) };
     let luminance = |factor: [f32; 3]| LinearRgb(factor).luminance();

@@ -12,7 +12,7 @@ use crate::material::{Highlight, TextureRef};
 use crate::scene::painted::Painted;
 use crate::scene::{Filter, Image, Primitive, Sampler, Scene, Texture, Warning, Wrap};
 use crate::smoothstep::smoothstep;
-use crate::tone::Tone;
+use crate::tone::{Tone, oklab};
 
 /// Angle from above of the band's middle, radians; light and view from the front move it up from there.
 const MIDDLE: f32 = 1.05;
@@ -156,7 +156,7 @@ fn light(scene: &Scene, material: usize) -> Light {
     let mean = colors.iter().fold(Vec3::ZERO, |sum, (c, a)| sum + Vec3::from(*c) * (*a / area));
     let hair = Tone::of(mean.to_array());
     // A gloss that is painted stands out from most of the hair.
-    let mut tones: Vec<(f32, f32)> = colors.iter().map(|(c, a)| (Tone::of(*c).lightness, *a)).collect();
+    let mut tones: Vec<(f32, f32)> = colors.iter().map(|(c, a)| (oklab(*c).x, *a)).collect();
     tones.sort_by(|(a, _), (b, _)| a.total_cmp(b));
     let at = |share: f32| {
         let mut left = area * share;

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::f32::consts::PI;
 
-use glam::Vec3;
+use glam::{Vec2, Vec3, Vec3Swizzles};
 use rayon::prelude::*;
 
 use super::anime::materials_of_any;
@@ -12,7 +12,7 @@ use crate::material::{Material, Shading, TextureRef, Toon};
 use crate::scene::painted::Painted;
 use crate::scene::{Role, Scene, Texture};
 use crate::smoothstep::smoothstep;
-use crate::tone::Tone;
+use crate::tone::{Tone, oklab};
 
 /// Chroma up to which a factor of shade counts as nobody's choice.
 const GREY: f32 = 0.045;
@@ -28,8 +28,28 @@ const ROSY_LAVENDER: [f32; 3] = [0.6, 0.51, 0.7];
 const BLUE: f32 = -1.5;
 const ROSE: f32 = -0.1;
 
+/// A material whose shade is grey by nobody's choice.
+pub(super) struct Grey {
+    material: usize,
+    factor: [f32; 3],
+    mean: Option<Mean>,
+}
+
+/// All of them but eyes and mouths.
+pub(super) fn greys(scene: &Scene) -> Vec<Grey> {
+    let kept = [Role::Eye, Role::EyeWhite, Role::EyeHighlight, Role::Lash, Role::Brow, Role::Mouth];
+    let kept = materials_of_any(scene, &kept);
+    let materials = scene.materials.par_iter().enumerate().filter(|(i, _)| !kept.contains(i));
+    let grey = materials.filter_map(|(index, material)| {
+        let own = factor(material, &unprepared_or_not(material)?);
+        let is_grey = is_grey(own) && luminance(own) <= FLAT;
+        is_grey.then(|| Grey { material: index, factor: own, mean: mean(scene, index) })
+    });
+    grey.collect()
+}
+
 /// Gives a hue to grey shade, to skin a warm one, and to black hair a light that its shade is told from.
-pub(super) fn apply(scene: &mut Scene) {
+pub(super) fn apply(scene: &mut Scene, greys: Vec<Grey>) {
     let role = |roles: &[Role]| materials_of_any(scene, roles);
     let others = role(&[Role::Hair, Role::HairFront, Role::Cloth, Role::Accessory, Role::Other]);
     let (of_body, unknown) = (role(&[Role::Face, Role::Skin]), role(&[Role::Other]));
@@ -39,7 +59,6 @@ pub(super) fn apply(scene: &mut Scene) {
     let hair = role(&[Role::Hair, Role::HairFront]);
     let of_more = role(&[Role::Face, Role::Skin, Role::Cloth, Role::Accessory, Role::Other]);
     let hair: Vec<usize> = hair.difference(&of_more).copied().collect();
-    let kept = role(&[Role::Eye, Role::EyeWhite, Role::EyeHighlight, Role::Lash, Role::Brow, Role::Mouth]);
     let of_file = skin.iter().find_map(|index| {
         let toon = unprepared_or_not(&scene.materials[*index])?;
         let factor = factor(&scene.materials[*index], &toon);
@@ -48,16 +67,10 @@ pub(super) fn apply(scene: &mut Scene) {
     let face = role(&[Role::Face]);
     let picture = |index: &usize| Some(scene.materials.get(*index)?.base.texture?.texture);
     let of_others: BTreeSet<usize> = others.iter().filter_map(picture).collect();
-    let grey = scene.materials.iter().enumerate().filter(|(i, _)| !kept.contains(i)).filter_map(|(index, material)| {
-        let own = factor(material, &unprepared_or_not(material)?);
-        (is_grey(own) && luminance(own) <= FLAT).then_some((index, own))
-    });
-    let grey: Vec<(usize, [f32; 3])> = grey.collect();
-    let tones: Vec<Option<Mean>> = grey.par_iter().map(|(index, _)| mean(scene, *index)).collect();
     let mut chosen = BTreeMap::new();
     let mut palettes = BTreeSet::new();
-    for ((index, own), tone) in grey.into_iter().zip(tones) {
-        let new = match (skin.contains(&index), tone) {
+    for Grey { material: index, factor: own, mean } in greys {
+        let new = match (skin.contains(&index), mean) {
             (true, _) if of_file.is_some() => of_file.unwrap_or_default(),
             // Hands are painted by what the palette's picture says.
             (true, Some(Mean { tone, .. })) if picture(&index).is_some_and(|p| of_others.contains(&p)) => {
@@ -197,12 +210,12 @@ struct Mean {
 fn mean(scene: &Scene, material: usize) -> Option<Mean> {
     let painted = Painted::new(scene, &scene.materials[material]);
     let parts = scene.meshes.iter().flat_map(|m| &m.primitives).filter(|p| p.material == material);
-    let (mut sum, mut way, mut chroma, mut all) = (Vec3::ZERO, glam::Vec2::ZERO, 0.0, 0.0);
+    let (mut sum, mut way, mut chroma, mut all) = (Vec3::ZERO, Vec2::ZERO, 0.0, 0.0);
     for (color, area) in parts.flat_map(|p| painted.of_triangles(p)) {
-        let tone = Tone::of(color);
+        let colored = oklab(color).yz() * area;
         sum += Vec3::from(color) * area;
-        way += glam::Vec2::from_angle(tone.hue_rad) * (tone.chroma * area);
-        chroma += tone.chroma * area;
+        way += colored;
+        chroma += colored.length();
         all += area;
     }
     (all > 0.0).then(|| Mean {

@@ -178,15 +178,16 @@ fn deviation(width: usize, values: &[f32]) -> f32 {
     }
     let count = values.len() as f32;
     let mean = values.iter().sum::<f32>() / count;
-    let at = |i: usize| {
-        Vec2::new((i % width) as f32 / (width - 1) as f32 - 0.5, (i / width) as f32 / (height - 1) as f32 - 0.5)
-    };
+    let places = (0..height).flat_map(|y| {
+        let up = y as f32 / (height - 1) as f32 - 0.5;
+        (0..width).map(move |x| Vec2::new(x as f32 / (width - 1) as f32 - 0.5, up))
+    });
     let (mut slope, mut square) = (Vec2::ZERO, Vec2::ZERO);
-    for (i, value) in values.iter().enumerate() {
-        slope += at(i) * (value - mean);
-        square += at(i) * at(i);
+    for (at, value) in places.clone().zip(values) {
+        slope += at * (value - mean);
+        square += at * at;
     }
     let slope = slope / square.max(Vec2::splat(1e-6));
-    let off = |(i, value): (usize, &f32)| (value - mean - slope.dot(at(i))).powi(2);
-    (values.iter().enumerate().map(off).sum::<f32>() / count).sqrt() / mean.max(1e-3)
+    let off = |(at, value): (Vec2, &f32)| (value - mean - slope.dot(at)).powi(2);
+    (places.zip(values).map(off).sum::<f32>() / count).sqrt() / mean.max(1e-3)
 }

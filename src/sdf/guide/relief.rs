@@ -15,6 +15,9 @@ pub(super) const SIDE: usize = 384;
 /// Angle round the axis on either side of the front that the relief holds, radians.
 pub(super) const REACH: f32 = 2.0;
 
+/// Angle on either side of the front up to which it is looked for what a face is read by, radians.
+const FRONT: f32 = 1.25;
+
 /// Share of the head's height that the relief reaches below it, so that coarser levels of its maps keep the neck apart.
 pub(super) const MARGIN: f32 = 0.09;
 
@@ -33,7 +36,7 @@ pub(super) struct Relief {
     pub(super) dent: Field,
     /// Share that follows the head: 0..1.
     pub(super) share: Field,
-    /// Luminance of what the file paints there.
+    /// Luminance of what the file paints there, before [`FRONT`]: 0 elsewhere.
     pub(super) painted: Field,
     /// Normals of the mesh, in the world at rest.
     pub(super) normals: Vec<Vec3>,
@@ -89,10 +92,16 @@ impl Relief {
             let field: Field = raster.texels.par_iter().map(|texel| pick(value(texel))).collect();
             even(&field)
         };
-        let luminance = |v: [f32; 7]| {
-            let [r, g, b, _] = paint.at([v[2], v[3]]);
+        let front = [-FRONT, FRONT].map(|angle| Self::cell(Vec2::new(0.5 + 0.5 * angle / REACH, 0.0))[0]);
+        let luminance = |(i, texel): (usize, &Option<[f32; 7]>)| {
+            if !(front[0]..=front[1]).contains(&(i % SIDE)) {
+                return 0.0;
+            }
+            let [.., u, w, _, _, _] = value(texel);
+            let [r, g, b, _] = paint.at([u, w]);
             LinearRgb([r, g, b]).luminance()
         };
+        let painted: Field = raster.texels.par_iter().enumerate().map(luminance).collect();
         let distance = field(&|v| v[0]);
         let (broad, fine) = (smoothed(&distance, 7.0, 7.0), smoothed(&distance, 1.0, 1.0));
         Some(Self {
@@ -101,7 +110,7 @@ impl Relief {
             dent: broad.iter().zip(&fine).map(|(b, f)| b - f).collect(),
             distance,
             share: field(&|v| v[1]),
-            painted: field(&luminance),
+            painted: even(&painted),
             facet: sides / f32::max(area, 1e-12) / height,
             normals: raster.texels.par_iter().map(|t| Vec3::from_slice(&value(t)[4..]).normalize_or(Vec3::Z)).collect(),
         })
