@@ -30,8 +30,11 @@ impl Thresholds {
         let features = smoothed(&relief.distance, (fine / 0.011 * 2.5).min(13.0) * degree, fine * row);
         // A mesh of few triangles models no cheek: light that stays there would be a blot.
         let modelled = smoothstep(0.034, 0.02, fine);
-        let facing: Field = relief.normals.par_iter().map(|n| n.x.atan2(n.z)).collect();
-        let facing = smoothed(&facing, 1.5 * degree, 0.008 * row);
+        // Few triangles say more by their normals than by where they lie.
+        let facing = (modelled < 1.0).then(|| {
+            let facing: Field = relief.normals.par_iter().map(|n| n.x.atan2(n.z)).collect();
+            smoothed(&facing, 1.5 * degree, 0.008 * row)
+        });
         let share = smoothed(&relief.share, 2.0 * degree, 0.01 * row);
         // Normals of few triangles shade in patches: there the map reaches farther back.
         let farther_deg = ((fine - 0.011) / 0.03).clamp(0.0, 1.0) * 15.0;
@@ -39,20 +42,23 @@ impl Thresholds {
             let angle = Relief::angle(x as f32);
             (angle, angle.sin())
         });
+        let heights: [(f32, f32); SIDE] = std::array::from_fn(|y| {
+            let up = 1.0 - (y as f32 + 0.5) / SIDE as f32;
+            (up, beyond(landmarks, up))
+        });
         let cells = (0..SIDE * SIDE).into_par_iter();
         let (mut from_left, mut normal): (Field, Field) = cells
             .map(|i| {
                 let (x, y) = (i % SIDE, i / SIDE);
-                let (angle, sin) = angles[x];
+                let ((angle, sin), (up, beyond)) = (angles[x], heights[y]);
                 let turned = azimuth(&head, x, y);
                 let across = sin * relief.distance[i] / relief.height;
-                let place = Vec2::new(across, 1.0 - (y as f32 + 0.5) / SIDE as f32);
+                let place = Vec2::new(across, up);
                 // The line between light and shade runs round what stands out.
                 let in_front = smoothstep(40.0, 15.0, angle.to_degrees().abs());
                 let round = landmarks.filter(|_| in_front > 0.0).map_or(0.0, |l| {
                     let raised = (features[i] - head[i]) / relief.height;
-                    // Few triangles say more by their normals than by where they lie.
-                    let slope = (facing[i] - turned).to_degrees().clamp(-60.0, 60.0);
+                    let slope = facing.as_ref().map_or(0.0, |f| (f[i] - turned).to_degrees().clamp(-60.0, 60.0));
                     let by_height = (raised * 1000.0).clamp(-12.0, 22.0);
                     (by_height * modelled + slope * (1.0 - modelled)) * (1.0 - near_eye(l, place)) * in_front
                 });
@@ -65,14 +71,7 @@ impl Thresholds {
                     dark_at = drawn(landmarks, style, place, dark_at);
                 }
                 let behind = smoothstep(77.0 + farther_deg, 100.0 + farther_deg, turned.to_degrees().abs());
-                // Nothing follows the head there.
-                let under = smoothstep(0.8, 0.6, place.y * (1.0 + MARGIN) / MARGIN);
-                // Hair that is one mesh with the face begins where a forehead ends.
-                let over = landmarks.map_or(0.0, |l| {
-                    let forehead = (place.y - l.eye[1]) / (l.eye[1] - l.chin).max(1e-4);
-                    smoothstep(1.1, 1.35, forehead)
-                });
-                let below = smoothstep(0.98, 0.75, share[i]).max(under).max(over);
+                let below = smoothstep(0.98, 0.75, share[i]).max(beyond);
                 ((dark_at / 180.0).clamp(0.0, 1.0), behind.max(below))
             })
             .unzip();
@@ -118,6 +117,15 @@ impl Thresholds {
 /// What both sides hold, of a place and of its mirror image: the mean is the same on both, to the last bit.
 fn both([left, normal]: [f32; 2], [right, mirrored]: [f32; 2]) -> [f32; 3] {
     [right, left, 0.5 * (normal + mirrored)]
+}
+
+/// Share of normal shading at a height, whatever the angle.
+fn beyond(landmarks: Option<&Landmarks>, up: f32) -> f32 {
+    // Nothing follows the head there.
+    let under = smoothstep(0.8, 0.6, up * (1.0 + MARGIN) / MARGIN);
+    // Hair that is one mesh with the face begins where a forehead ends.
+    let over = landmarks.map_or(0.0, |l| smoothstep(1.1, 1.35, (up - l.eye[1]) / (l.eye[1] - l.chin).max(1e-4)));
+    under.max(over)
 }
 
 /// Where the surface looks to, as an angle from the front to the character's left, radians.
