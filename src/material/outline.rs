@@ -129,6 +129,7 @@ impl Section for Outline {
     fn put(&self, gpu: &mut Block<'_>, _: &Surroundings<'_>) {
         gpu.put("clamp_px", self.bounds_px().unwrap_or_default());
         let tint = self.tint.unwrap_or_default();
+        gpu.put("tint_from_shade", f32::from(u8::from(tint.from == TintSource::Shade)));
         gpu.put("shift", hue_saturation_columns(tint.hue_rad, tint.saturation));
         gpu.put("parts", tint.parts.unwrap_or_default().colors.map(|[r, g, b]| [r, g, b, 1.0]));
     }
@@ -140,7 +141,6 @@ impl Section for Outline {
         on.set("outline_push", self.push_m > 0.0);
         on.set("outline_mixed", self.is_mixed(of));
         on.set("outline_tint", self.tint.is_some());
-        on.set("outline_from_shade", self.tint.is_some_and(|t| t.from == TintSource::Shade));
         // Colours of strips of hair mean something else.
         on.set("outline_vertex_width", self.vertex_width && of.material.strips.is_none());
     }

@@ -15,4 +15,6 @@ struct Outline {
     parts: array<vec4f, 8>,
     width_mask_uv: UvTransform,
     part_ids_uv: UvTransform,
+    // 1 where the colour is that of the surface in shade, 0 where that in light.
+    tint_from_shade: f32,
 }

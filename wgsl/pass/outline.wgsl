@@ -85,8 +85,8 @@ fn tinted(in: Varying, position: vec3f) -> vec4f {
     let m = &material.outline;
     let s = surface_of(in, true);
     var source = s.lit;
-    @if(toon && outline_from_shade) source = s.shade;
-    @if(toon && outline_from_shade && shade_ramp) source = ramp_color(s.uv, s.lit, s.shade, 0.0);
+    @if(toon && !shade_ramp) source = mix(s.lit, s.shade, m.tint_from_shade);
+    @if(toon && shade_ramp) source = mix(s.lit, ramp_color(s.uv, s.lit, s.shade, 0.0), m.tint_from_shade);
     var color = outline_tinted(source, m.tint_gamma, m.shift, m.tint_factor);
     @if(outline_part_ids) {
         // The texel itself: numbers are not filtered.
