@@ -162,7 +162,7 @@ fn a_section_of_an_application_draws_by_its_look_file_and_has_a_channel() {
 fn wrong_wgsl_is_one_error_with_file_and_line() {
     for (error, words) in [
         (register::<BrokenSyntax>().expect_err("syntax"), ["broken_syntax.wgsl", "line 4"]),
-        (register::<BrokenType>().expect_err("type"), ["broken_type.wgsl", "line 11"]),
+        (register::<BrokenType>().expect_err("type"), ["broken_type.wgsl", "line 10"]),
         (register::<BrokenHook>().expect_err("parameters"), ["broken_hook.wgsl", "line 8"]),
         (
             register::<BrokenNumbers>().expect_err("members"),
