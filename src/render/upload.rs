@@ -69,7 +69,13 @@ impl Renderer {
         let requests = || of.requests.iter().flat_map(Pipelines::iter);
         // Error scopes belong to threads.
         let textures = || self.gpu().scoped(|| make(&of.uses()));
-        let (textures, pipelines) = rayon::join(textures, || self.variants.get_all(requests()));
+        let pipelines = || {
+            if of.bangs.is_some() {
+                self.gpu().scoped(|| self.make_bangs_near())??;
+            }
+            self.variants.get_all(requests())
+        };
+        let (textures, pipelines) = rayon::join(textures, pipelines);
         pipelines?;
         textures?
     }
@@ -148,6 +154,7 @@ impl Renderer {
             uv_boxes,
             eyes: eyes.rows,
             driven,
+            bangs: bangs_fit(scene, &geometry),
             geometry,
             draws,
             sight,
@@ -167,6 +174,7 @@ impl Renderer {
             uv_boxes,
             eyes,
             driven,
+            bangs,
             geometry,
             draws,
             sight,
@@ -203,10 +211,6 @@ impl Renderer {
         let of_first = || buffer("first person", bytemuck::cast_slice(&geometry.first_person), U::INDEX);
         let first_person = scene.character.is_some().then(of_first);
         let static_vertices = buffer("static vertices", bytemuck::cast_slice(&geometry.static_vertices), U::VERTEX);
-        let bangs = bangs_fit(scene, &geometry);
-        if bangs.is_some() {
-            self.make_bangs_near()?;
-        }
         let shadow = shadow_fit(scene, &geometry);
         let source = DeformSource::new(&gpu, &geometry.deform_input());
         let drawn = || draws.iter().map(|d| &looks.compositions[d.material]);
@@ -434,6 +438,7 @@ struct Described {
     uv_boxes: Vec<[[f32; 2]; 2]>,
     eyes: Vec<Vec<EyeRow>>,
     driven: Vec<Driven>,
+    bangs: Option<BangsFit>,
     geometry: Geometry,
     draws: Vec<Draw>,
     /// What pictures of it are first made for, and what then shows each draw.

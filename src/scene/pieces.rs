@@ -7,7 +7,7 @@ use crate::sets::Sets;
 
 /// One number for each vertex: those at the same place have the same one. The second is how many there are.
 pub(crate) fn welded(positions: &[[f32; 3]]) -> (Vec<u32>, usize) {
-    let mut known = HashMap::new();
+    let mut known = HashMap::with_capacity(positions.len());
     // 0 and -0 are one place.
     let key = |p: &[f32; 3]| p.map(|x| (x + 0.0).to_bits());
     let numbers = positions
