@@ -124,3 +124,18 @@ fn a_band_lies_below_where_a_fringe_bends() {
     assert!(lying.iter().all(|v| place(*v) < 0.5), "the band is on the top");
     assert!(hanging.iter().any(|v| place(*v) > 0.5), "the band is below the hair");
 }
+
+/// What is as bright in shade as in light receives no cast shadow, which would not show; it goes on casting.
+#[test]
+fn what_shows_no_shade_receives_none() {
+    let rows = [([0.0, 0.2], [0.0, 0.0, 1.0]), ([-0.2, 0.2], [0.0, 0.0, 1.0])];
+    let received = |shade: f32| {
+        let mut scene = doll(strip(Role::Accessory, &rows, 0.1, 1));
+        if let Shading::Toon(toon) = &mut scene.materials[1].shading {
+            toon.shade_color = [shade; 3];
+        }
+        let shadow = anime(scene).materials[1].cast_shadow.expect("a part in cast shadows");
+        (shadow.casts, shadow.received)
+    };
+    assert_eq!((received(1.0), received(0.5)), ((true, 0.0), (true, 1.0)));
+}
