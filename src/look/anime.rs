@@ -115,11 +115,10 @@ const CRISP_ON_ROUND: f32 = 0.985;
 
 /// Crisp borders on all but skin, whose light turns warm before it turns to shade.
 fn borders(scene: &mut Scene) {
-    let skin = bare_skin(scene);
     let round: &[Role] = &[Role::Hair, Role::HairFront, Role::Accessory, Role::Other];
     for (roles, crisp) in [(round, CRISP_ON_ROUND), (&[Role::Cloth], CRISP)] {
-        for index in materials_of_any(scene, roles).difference(&skin) {
-            if let Shading::Toon(toon) = &mut scene.materials[*index].shading {
+        for index in materials_of_any(scene, roles) {
+            if let Shading::Toon(toon) = &mut scene.materials[index].shading {
                 toon.toony = toon.toony.max(crisp);
             }
         }
@@ -133,8 +132,8 @@ const HALFTONE_WIDTH: f32 = 0.8;
 
 /// A soft half-tone on clothes whose shade is a factor of their light.
 fn cloth(scene: &mut Scene) {
-    for index in materials_of(scene, Role::Cloth).difference(&bare_skin(scene)) {
-        let material = &mut scene.materials[*index];
+    for index in materials_of(scene, Role::Cloth) {
+        let material = &mut scene.materials[index];
         if let Some(factor) = own_shade_factor(material) {
             let color = factor.map(|f| 1.0 - HALFTONE * (1.0 - f));
             material.transition = Some(Transition { color, width: HALFTONE_WIDTH, ..Transition::default() });
